@@ -1,0 +1,51 @@
+// How Omma reports what went wrong.
+//
+// A message says what, where (file, line, key), why, and what would be accepted. The kind of an error is the exit
+// code of the tool: the command was wrong, the input was wrong, or this machine cannot do it.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace omma {
+
+enum class ErrorKind { command = 2, input = 3, machine = 4 };
+
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
+  int exit_code() const { return static_cast<int>(kind_); }
+
+ private:
+  ErrorKind kind_;
+};
+
+/// The caller asked for something that does not exist or makes no sense: an unknown name, a value out of range.
+struct CommandError : Error {
+  template <typename... Args>
+  explicit CommandError(fmt::format_string<Args...> format, Args&&... args)
+      : Error(ErrorKind::command, fmt::format(format, std::forward<Args>(args)...)) {}
+};
+
+/// A file holds something that cannot be used.
+struct InputError : Error {
+  template <typename... Args>
+  explicit InputError(fmt::format_string<Args...> format, Args&&... args)
+      : Error(ErrorKind::input, fmt::format(format, std::forward<Args>(args)...)) {}
+};
+
+/// The request is sound, but this machine lacks something for it: a driver, a feature, memory, disk space.
+struct MachineError : Error {
+  template <typename... Args>
+  explicit MachineError(fmt::format_string<Args...> format, Args&&... args)
+      : Error(ErrorKind::machine, fmt::format(format, std::forward<Args>(args)...)) {}
+};
+
+/// Says something on standard error without stopping: a texture that is missing, vertices that were dropped.
+void warn(const std::string& message);
+
+}  // namespace omma

@@ -1,0 +1,80 @@
+#include "omma/base/file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "omma/base/error.h"
+
+namespace omma {
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) throw InputError("{}: no such file", path.string());
+  if (fs::is_directory(status))
+    throw InputError("{}: is a folder, a file is expected", path.string());
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError("{}: cannot be read ({})", path.string(), std::strerror(errno));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void require_writable(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::exists(folder, error)) {
+    throw CommandError("{}: its folder '{}' does not exist; create it first", path.string(),
+                       folder.string());
+  }
+  if (!fs::is_directory(folder, error)) {
+    throw CommandError("{}: '{}' is not a folder", path.string(), folder.string());
+  }
+  if (fs::is_directory(path, error)) {
+    throw CommandError("{}: is a folder, a file name is expected", path.string());
+  }
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw CommandError("{}: folder '{}' cannot be written to ({})", path.string(), folder.string(),
+                       std::strerror(errno));
+  }
+}
+
+void write_whole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  require_writable(path);
+  fs::path temporary = path;
+  temporary.replace_filename(
+      fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string()));
+  try {
+    write(temporary);
+    fs::rename(temporary, path);
+  } catch (const fs::filesystem_error& error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw MachineError("{}: cannot be written ({})", path.string(), error.code().message());
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
+  }
+}
+
+void write_stream(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  write_whole(path, [&](const fs::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    write(stream);
+    stream.close();
+    if (!stream) {
+      throw MachineError("{}: cannot be written ({})", path.string(), std::strerror(errno));
+    }
+  });
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  write_stream(path, [&](std::ostream& stream) { stream << text; });
+}
+
+}  // namespace omma

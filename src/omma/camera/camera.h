@@ -1,0 +1,80 @@
+// A camera: a centre and a bundle of rays, one or none for each point of its image.
+//
+// Camera frame: +X right, +Y up, looks along -Z. Image: pixels, origin at the top-left corner, x right, y down; the
+// centre of the first pixel is (0.5, 0.5).
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "omma/camera/lens_model.h"
+#include "omma/math/ray.h"
+
+namespace omma {
+
+/// A smooth camera given by formulae: a model of models.def, its parameters, and the affine map from the model's plane
+/// to pixels, pixel = centre + focal * plane.
+struct Lens {
+  const LensModel* model = nullptr;
+  ImageSize size;
+  glm::dvec2 focal{1.0};   ///< pixels per unit of the model's plane
+  glm::dvec2 centre{0.0};  ///< principal point, pixels from the top-left corner
+  LensParameters parameters;
+
+  /// Pixel of a direction (any length) in the camera frame. Nothing when the lens does not see it.
+  std::optional<glm::dvec2> project(const glm::dvec3& direction) const;
+  /// Unit direction in the camera frame. Nothing where the image has no ray.
+  std::optional<glm::dvec3> unproject(const glm::dvec2& pixel) const;
+};
+
+/// A camera given by a measured direction for each pixel's centre, in the camera frame. A zero direction is no ray.
+struct RayMap {
+  ImageSize size;
+  std::vector<glm::vec3> directions;  ///< rows from the top; unit length or zero
+
+  /// Bilinear between pixel centres, as far as the four neighbours have rays; at a pixel's centre its own ray.
+  std::optional<glm::dvec3> unproject(const glm::dvec2& pixel) const;
+};
+
+class Camera {
+ public:
+  explicit Camera(Lens lens) : form_(std::move(lens)) {}
+  explicit Camera(RayMap map) : form_(std::make_shared<const RayMap>(std::move(map))) {}
+
+  ImageSize size() const;
+  /// Null for a ray map: it has rays but no formula to project with.
+  const Lens* lens() const { return std::get_if<Lens>(&form_); }
+  const RayMap* ray_map() const;
+
+  /// Throws CommandError when the camera is a ray map.
+  std::optional<glm::dvec2> project(const glm::dvec3& direction) const;
+  /// In the camera frame.
+  std::optional<Ray> unproject(const glm::dvec2& pixel) const;
+
+  /// Pixels per radian around the image's centre (or the ray nearest to it): the density other images are matched to.
+  double pixels_per_radian() const;
+
+ private:
+  std::variant<Lens, std::shared_ptr<const RayMap>> form_;
+};
+
+/// The camera of a text: `equidistant:fov_deg=180`, `opencv_fisheye:fx=…,fy=…,…`, or the name of a `.npy` file with
+/// H x W x 3 directions. docs/cameras.md lists names and parameters.
+///
+/// `size` is the image asked for, if any. A camera with its own size (`width=`, `height=`, a ray map) keeps it, and a
+/// different size of the same shape scales its intrinsics. Without either the image is 1600 x 1200.
+/// Throws CommandError for the text, InputError for a file.
+Camera make_camera(std::string_view text, std::optional<ImageSize> size = std::nullopt);
+
+/// The ray map of a `.npy` file (float32 or float64, H x W x 3, either byte order, C or Fortran order). Directions need
+/// not be of unit length; zero or NaN means no ray.
+RayMap load_ray_map(const std::filesystem::path& path);
+
+}  // namespace omma

@@ -1,0 +1,85 @@
+// The one door to drawing: a scene, a camera and a pose go in, channels come out.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "omma/camera/camera.h"
+#include "omma/image/image.h"
+#include "omma/scene/scene.h"
+
+namespace omma {
+
+enum class Filter { trilinear, anisotropic };
+
+struct RenderOptions {
+  std::string technique = "auto";  ///< `name` or `name:variant`, see techniques()
+  int samples = 4;                 ///< colour samples per pixel, 1 to 1024
+  Filter filter = Filter::anisotropic;
+  int face_size = 0;               ///< image-based: texels along a cube face, 0: the camera's density at its centre
+  int tile = 0;                    ///< largest tile's side in pixels, 0: what the driver allows
+  std::optional<glm::vec3> background;  ///< linear RGB where a ray meets nothing; nothing: a sky
+};
+
+/// What a picture took. Times are milliseconds, GPU stages by timer queries.
+struct RenderStats {
+  std::string technique;  ///< the one that drew, `name:variant`
+  std::string renderer;   ///< the GL renderer
+  size_t triangles = 0;        ///< in the scene
+  size_t triangles_drawn = 0;  ///< rasterized or traced against, over all passes
+  size_t buffer_bytes = 0;     ///< on the GPU: geometry, textures, targets
+  int tiles = 0;
+  int passes = 0;  ///< colour passes accumulated
+  std::vector<std::pair<std::string, double>> stage_ms;
+};
+
+struct VariantInfo {
+  std::string name;
+  std::string description;
+};
+
+struct TechniqueInfo {
+  std::string name;
+  std::string description;
+  bool exact;           ///< equal to `raycast` but for rounding at edges
+  bool needs_project;   ///< cannot draw a ray map
+  std::vector<VariantInfo> variants;  ///< the first is the default; empty: none
+};
+
+/// Every technique, in the order of the registry.
+const std::vector<TechniqueInfo>& techniques();
+
+/// Throws CommandError with the nearest name for an unknown technique or variant.
+void check_technique(std::string_view technique);
+
+class Renderer {
+ public:
+  /// Opens a GL context of its own. Throws MachineError when there is none to be had.
+  Renderer();
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// Uploads the scene. The scene must outlive the renderer or the next call of load.
+  void load(const Scene& scene);
+  /// Takes over what set_time changed: transforms, lights, deformed vertices.
+  void update();
+
+  /// The image of every channel asked for. `worldFromCamera` is rigid. Throws CommandError for options that make no
+  /// sense or do not go together, MachineError for what this driver cannot do.
+  std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
+                                  std::span<const Channel> wanted, const RenderOptions& options,
+                                  RenderStats* stats = nullptr);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace omma
