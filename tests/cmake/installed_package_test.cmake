@@ -1,0 +1,34 @@
+# Installs the build, moves the installation elsewhere, builds examples/minimal against it with find_package(omma) and
+# compares the example's picture with the installed tool's.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    string(JOIN " " line ${ARGN})
+    message(FATAL_ERROR "${line}\nexit code ${status}\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
+
+# Paths of the checkout or of the first prefix in the package would only work on the machine that built it.
+file(GLOB_RECURSE package_files ${WORK}/first/*.cmake)
+foreach(name ${package_files})
+  file(READ ${name} text)
+  foreach(folder ${SOURCE} ${WORK})
+    string(FIND "${text}" "${folder}/" position)
+    if(NOT position EQUAL -1)
+      message(FATAL_ERROR "${name} mentions ${folder}; an installed package must not")
+    endif()
+  endforeach()
+endforeach()
+
+file(RENAME ${WORK}/first ${WORK}/moved)
+run(${CMAKE_COMMAND} -S ${SOURCE}/examples/minimal -B ${WORK}/example -G ${GENERATOR}
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH=${WORK}/moved
+    -DCMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON)
+run(${CMAKE_COMMAND} --build ${WORK}/example)
+
+run(${WORK}/example/minimal room ${WORK}/example.png)
+run(${WORK}/moved/bin/omma render room --camera equidistant:fov_deg=180 --size 512x512 -o ${WORK}/tool.png)
+run(${WORK}/moved/bin/omma compare ${WORK}/example.png ${WORK}/tool.png --max-difference 0)
