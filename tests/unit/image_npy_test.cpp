@@ -25,11 +25,8 @@ class Npy : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   /// A version 1 file, its header as NumPy would write it, followed by `data`.
-  void write(const std::string& dtype, const std::string& order, const std::string& shape,
-             const std::string& data) {
-    write_header(
-        "{'descr': '" + dtype + "', 'fortran_order': " + order + ", 'shape': " + shape + ", }",
-        data);
+  void write(const std::string& dtype, const std::string& order, const std::string& shape, const std::string& data) {
+    write_header("{'descr': '" + dtype + "', 'fortran_order': " + order + ", 'shape': " + shape + ", }", data);
   }
   void write_header(std::string header, const std::string& data) {
     header += '\n';

@@ -17,8 +17,7 @@ std::string read_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError("{}: no such file", path.string());
-  if (fs::is_directory(status))
-    throw InputError("{}: is a folder, a file is expected", path.string());
+  if (fs::is_directory(status)) throw InputError("{}: is a folder, a file is expected", path.string());
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError("{}: cannot be read ({})", path.string(), std::strerror(errno));
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -28,8 +27,7 @@ void require_writable(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code error;
   if (!fs::exists(folder, error)) {
-    throw CommandError("{}: its folder '{}' does not exist; create it first", path.string(),
-                       folder.string());
+    throw CommandError("{}: its folder '{}' does not exist; create it first", path.string(), folder.string());
   }
   if (!fs::is_directory(folder, error)) {
     throw CommandError("{}: '{}' is not a folder", path.string(), folder.string());
@@ -46,8 +44,7 @@ void require_writable(const fs::path& path) {
 void write_whole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   require_writable(path);
   fs::path temporary = path;
-  temporary.replace_filename(
-      fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string()));
+  temporary.replace_filename(fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string()));
   try {
     write(temporary);
     fs::rename(temporary, path);

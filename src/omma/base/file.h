@@ -21,8 +21,7 @@ void write_whole(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path& temporary)>& write);
 
 /// write_whole through a binary stream; MachineError when the stream fails.
-void write_stream(const std::filesystem::path& path,
-                  const std::function<void(std::ostream& stream)>& write);
+void write_stream(const std::filesystem::path& path, const std::function<void(std::ostream& stream)>& write);
 
 /// write_whole of a text.
 void write_text(const std::filesystem::path& path, const std::string& text);

@@ -28,7 +28,7 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 template <typename T>
 std::optional<T> parse_whole(std::string_view text) {
   T value{};
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;

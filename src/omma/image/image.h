@@ -53,9 +53,7 @@ struct ImageOf {
         values(size_t(image_size.width) * image_size.height * component_count, value) {}
 
   T* at(int x, int y) { return values.data() + (size_t(y) * size.width + x) * components; }
-  const T* at(int x, int y) const {
-    return values.data() + (size_t(y) * size.width + x) * components;
-  }
+  const T* at(int x, int y) const { return values.data() + (size_t(y) * size.width + x) * components; }
 };
 
 using FloatImage = ImageOf<float>;

@@ -17,8 +17,7 @@
 namespace omma {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "values are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
 
 constexpr std::string_view magic{"\x93NUMPY", 6};
 
@@ -157,8 +156,7 @@ class HeaderParser {
 std::optional<size_t> element_count(const Header& header) {
   size_t count = 1;
   for (const size_t extent : header.shape) {
-    if (extent != 0 && count > std::numeric_limits<size_t>::max() / 16 / extent)
-      return std::nullopt;
+    if (extent != 0 && count > std::numeric_limits<size_t>::max() / 16 / extent) return std::nullopt;
     count *= extent;
   }
   return count;
@@ -180,17 +178,16 @@ Header read_header(const std::string& bytes, const std::string& path) {
   }
   const size_t begin = 8 + length_bytes;
   if (bytes.size() < begin || bytes.size() - begin < length) {
-    throw InputError("{}: truncated: the header should be {} bytes long, the whole file is {}",
-                     path, length, bytes.size());
+    throw InputError("{}: truncated: the header should be {} bytes long, the whole file is {}", path, length,
+                     bytes.size());
   }
   Header header = HeaderParser(std::string_view(bytes).substr(begin, length), path).parse();
   header.data_offset = begin + length;
   const std::optional<size_t> count = element_count(header);
   const size_t available = bytes.size() - header.data_offset;
   if (!count || *count * header.item_size > available) {
-    throw InputError(
-        "{}: truncated: shape ({}) of {}-byte numbers needs more than the {} bytes of data", path,
-        fmt::join(header.shape, ", "), header.item_size, available);
+    throw InputError("{}: truncated: shape ({}) of {}-byte numbers needs more than the {} bytes of data", path,
+                     fmt::join(header.shape, ", "), header.item_size, available);
   }
   if (*count * header.item_size < available) {
     throw InputError("{}: {} bytes follow after the data that the header announces", path,
@@ -221,8 +218,7 @@ T convert(Stored stored, const std::string& path, size_t index) {
     const auto value = static_cast<double>(stored);
     if (!(value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max()) ||
         value != std::floor(value)) {
-      throw InputError("{}: element {} is {}, a whole number of 32 bits is expected", path, index,
-                       value);
+      throw InputError("{}: element {} is {}, a whole number of 32 bits is expected", path, index, value);
     }
   }
   return static_cast<T>(stored);
@@ -251,12 +247,10 @@ void for_each_element(const Header& header, const Visit& visit) {
 }
 
 template <typename Stored, typename T>
-void read_values(const std::string& bytes, const Header& header, const std::string& path,
-                 std::vector<T>& values) {
+void read_values(const std::string& bytes, const Header& header, const std::string& path, std::vector<T>& values) {
   const char* data = bytes.data() + header.data_offset;
   for_each_element(header, [&](size_t i, size_t stored) {
-    values[i] =
-        convert<T>(load<Stored>(data + stored * sizeof(Stored), header.big_endian), path, i);
+    values[i] = convert<T>(load<Stored>(data + stored * sizeof(Stored), header.big_endian), path, i);
   });
 }
 
@@ -276,9 +270,7 @@ NpyArray<T> read_npy(const std::filesystem::path& path) {
   array.shape = header.shape;
   array.integer = header.kind != 'f';
   array.values.resize(header.count);
-  const auto read = [&]<typename Stored>(Stored) {
-    read_values<Stored>(bytes, header, name, array.values);
-  };
+  const auto read = [&]<typename Stored>(Stored) { read_values<Stored>(bytes, header, name, array.values); };
   switch (header.kind * 10 + int(header.item_size)) {
     case 'b' * 10 + 1:
     case 'u' * 10 + 1:
@@ -319,30 +311,23 @@ NpyArray<T> read_npy(const std::filesystem::path& path) {
 }
 
 template <typename T>
-void write_npy(const std::filesystem::path& path, std::span<const size_t> shape,
-               std::span<const T> values) {
-  std::string header =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", dtype_name<T>(),
-                  fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+void write_npy(const std::filesystem::path& path, std::span<const size_t> shape, std::span<const T> values) {
+  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", dtype_name<T>(),
+                                   fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
   constexpr size_t preamble = 10, alignment = 64;
   header.append((alignment - (preamble + header.size() + 1) % alignment) % alignment, ' ');
   header += '\n';
   write_stream(path, [&](std::ostream& stream) {
-    stream << magic << '\x01' << '\0' << char(header.size() & 0xff) << char(header.size() >> 8)
-           << header;
-    stream.write(reinterpret_cast<const char*>(values.data()),
-                 static_cast<std::streamsize>(values.size_bytes()));
+    stream << magic << '\x01' << '\0' << char(header.size() & 0xff) << char(header.size() >> 8) << header;
+    stream.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
   });
 }
 
 template NpyArray<float> read_npy(const std::filesystem::path&);
 template NpyArray<double> read_npy(const std::filesystem::path&);
 template NpyArray<int32_t> read_npy(const std::filesystem::path&);
-template void write_npy(const std::filesystem::path&, std::span<const size_t>,
-                        std::span<const float>);
-template void write_npy(const std::filesystem::path&, std::span<const size_t>,
-                        std::span<const double>);
-template void write_npy(const std::filesystem::path&, std::span<const size_t>,
-                        std::span<const int32_t>);
+template void write_npy(const std::filesystem::path&, std::span<const size_t>, std::span<const float>);
+template void write_npy(const std::filesystem::path&, std::span<const size_t>, std::span<const double>);
+template void write_npy(const std::filesystem::path&, std::span<const size_t>, std::span<const int32_t>);
 
 }  // namespace omma

@@ -25,7 +25,6 @@ NpyArray<T> read_npy(const std::filesystem::path& path);
 /// Writes little-endian float32, float64 or int32 in C order. `values` has as many elements as
 /// `shape` says.
 template <typename T>
-void write_npy(const std::filesystem::path& path, std::span<const size_t> shape,
-               std::span<const T> values);
+void write_npy(const std::filesystem::path& path, std::span<const size_t> shape, std::span<const T> values);
 
 }  // namespace omma

@@ -1,0 +1,16 @@
+// Reading images, by extension: what write.h writes comes back as it was, up to the format's precision.
+#pragma once
+
+#include <filesystem>
+
+#include "omma/image/image.h"
+
+namespace omma {
+
+/// Colour from .png and .jpg is turned from sRGB into linear light; a 16-bit .png of one component holds numbers + 1
+/// and becomes an IntImage, as does a file of whole numbers in .exr (32-bit) or .npy. Everything else is taken as it
+/// is. Alpha is dropped. Throws CommandError for an extension that is no image format, InputError for a file that is
+/// missing or broken.
+Image read_image(const std::filesystem::path& path);
+
+}  // namespace omma

@@ -1,0 +1,24 @@
+// Writing images; the extension is the format.
+//
+//   .png   color: 8-bit sRGB; id, object, material: 16 bits, number + 1, 0 where there is nothing (up to 65534)
+//   .jpg   color: 8-bit sRGB, quality 95, no chroma subsampling
+//   .exr   every channel: 32-bit float; id, object, material: 32-bit unsigned, 4294967295 where there is nothing
+//   .pfm   every channel of floats but uv: 32-bit, rows from the bottom, little-endian
+//   .npy   every channel: float32 or int32, H x W or H x W x components, rows from the top
+#pragma once
+
+#include <filesystem>
+
+#include "omma/image/image.h"
+
+namespace omma {
+
+/// Throws CommandError when the file could not be written: an extension that is no format, a format that cannot hold
+/// the channel, a folder that is missing.
+void check_image_output(const std::filesystem::path& path, Channel channel);
+
+/// The file is there whole or not at all. Throws as check_image_output does, CommandError for numbers above 65534 in a
+/// .png, and MachineError when the disk refuses.
+void write_image(const std::filesystem::path& path, const Image& image, Channel channel);
+
+}  // namespace omma

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <ostream>
+
+#include "omma/base/error.h"
+#include "omma/base/file.h"
+
+namespace omma {
+namespace {
+
+namespace fs = std::filesystem;
+
+class File : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("omma_file_{}", ::getpid());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  size_t files() const { return size_t(std::distance(fs::directory_iterator(folder_), {})); }
+
+  fs::path folder_;
+};
+
+TEST_F(File, WhatIsWrittenIsRead) {
+  const std::string text("a\0b\n\xff", 5);
+  write_text(folder_ / "a.txt", text);
+  EXPECT_EQ(read_file(folder_ / "a.txt"), text);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(File, FailureLeavesTheOldFileAndNoOther) {
+  const fs::path path = folder_ / "a.txt";
+  write_text(path, "old");
+  EXPECT_THROW(write_whole(path,
+                           [](const fs::path& temporary) {
+                             write_text(temporary, "half");
+                             throw InputError("stop");
+                           }),
+               InputError);
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(File, TemporaryFileKeepsTheExtension) {
+  write_whole(folder_ / "a.exr", [](const fs::path& temporary) {
+    EXPECT_EQ(temporary.extension(), ".exr");
+    write_text(temporary, "x");
+  });
+  EXPECT_TRUE(fs::exists(folder_ / "a.exr"));
+}
+
+TEST_F(File, FailedStreamIsAMachineError) {
+  EXPECT_THROW(write_stream(folder_ / "a", [](std::ostream& stream) { stream.setstate(std::ios::failbit); }),
+               MachineError);
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(File, UnusablePathsAreRefusedBeforehand) {
+  EXPECT_THROW(require_writable(folder_ / "missing" / "a.txt"), CommandError);
+  EXPECT_THROW(require_writable(folder_), CommandError);
+  write_text(folder_ / "a", "");
+  EXPECT_THROW(require_writable(folder_ / "a" / "b"), CommandError);
+  EXPECT_NO_THROW(require_writable(folder_ / "a"));
+  EXPECT_THROW(read_file(folder_), InputError);
+  EXPECT_THROW(read_file(folder_ / "missing"), InputError);
+}
+
+}  // namespace
+}  // namespace omma
