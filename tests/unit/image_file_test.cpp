@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <limits>
+#include <random>
 
 #include "omma/base/error.h"
 #include "omma/base/file.h"
@@ -167,7 +168,6 @@ TEST_F(ImageFile, BrokenFilesAreRefused) {
     const std::string whole = read_file(file(name));
     for (const size_t length : {size_t{3}, size_t{20}, whole.size() / 2}) {
       write_text(file(name), whole.substr(0, length));
-      if (extension == ".jpg" && length > 20) continue;  // libjpeg fills in what is missing
       EXPECT_NE(read_error(name), "no error") << length;
     }
   }
@@ -191,7 +191,8 @@ TEST_F(ImageFile, NpyOfNoImageShapeIsRefused) {
 /// A limit on file size refuses writes like a full disk does.
 TEST_F(ImageFile, FullDiskIsAMachineErrorAndLeavesNothing) {
   FloatImage image({256, 256}, 3);
-  for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = float(i * 7919 % 1009) / 1009.0f;
+  std::minstd_rand random;  // nothing that compresses
+  for (float& value : image.values) value = float(random() % 1009) / 1009.0f;
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit limited{10000, before.rlim_max};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 
 #include "omma/base/error.h"
 #include "omma/base/file.h"
@@ -51,8 +52,24 @@ ImageOf<T> read_components(OIIO::ImageInput& input, const fs::path& path, int co
   return image;
 }
 
+/// Decoders fill in what a truncated file lacks, or complain on standard error by themselves.
+void require_whole(const fs::path& path, ImageFormat format) {
+  using namespace std::string_view_literals;
+  const std::string bytes = read_file(path);
+  if (bytes.empty()) throw InputError("{}: the file is empty", path.string());
+  constexpr size_t slack = 1024;  // some programs append something
+  const std::string_view end = std::string_view(bytes).substr(bytes.size() - std::min(bytes.size(), slack));
+  const std::string_view mark = format == ImageFormat::png   ? "IEND"sv
+                                : format == ImageFormat::jpg ? "\xff\xd9"sv
+                                                             : ""sv;
+  if (end.find(mark) == std::string_view::npos) {
+    throw InputError("{}: truncated, or no image of its extension (the mark of the file's end is missing)",
+                     path.string());
+  }
+}
+
 Image read_encoded(const fs::path& path, ImageFormat format) {
-  if (read_file(path).empty()) throw InputError("{}: the file is empty", path.string());
+  require_whole(path, format);
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
   if (!input) {
     throw InputError("{}: is not an image of its extension ({})", path.string(), OIIO::geterror());
