@@ -38,8 +38,10 @@ struct Lens {
 struct RayMap {
   ImageSize size;
   std::vector<glm::vec3> directions;  ///< rows from the top; unit length or zero
+  std::string source;                 ///< the file it was read from, if any
 
-  /// Bilinear between pixel centres, as far as the four neighbours have rays; at a pixel's centre its own ray.
+  /// Bilinear between pixel centres, and on to the image's edges; at a pixel's centre its own ray. Nothing outside the
+  /// image, and nothing between pixels of which one has no ray.
   std::optional<glm::dvec3> unproject(const glm::dvec2& pixel) const;
 };
 
@@ -58,7 +60,8 @@ class Camera {
   /// In the camera frame.
   std::optional<Ray> unproject(const glm::dvec2& pixel) const;
 
-  /// Pixels per radian around the image's centre (or the ray nearest to it): the density other images are matched to.
+  /// Pixels per radian around the image's centre, or the ray nearest to it, along the axis where they are denser: what
+  /// other images are matched to. 0 when no pixel has a ray.
   double pixels_per_radian() const;
 
  private:
@@ -68,13 +71,24 @@ class Camera {
 /// The camera of a text: `equidistant:fov_deg=180`, `opencv_fisheye:fx=…,fy=…,…`, or the name of a `.npy` file with
 /// H x W x 3 directions. docs/cameras.md lists names and parameters.
 ///
-/// `size` is the image asked for, if any. A camera with its own size (`width=`, `height=`, a ray map) keeps it, and a
-/// different size of the same shape scales its intrinsics. Without either the image is 1600 x 1200.
+/// `size` is the image asked for, if any. A camera with its own size (`width=`, `height=`) is scaled to it, which needs
+/// the same shape; a ray map has the size it has. Without either the image is 1600 x 1200.
 /// Throws CommandError for the text, InputError for a file.
 Camera make_camera(std::string_view text, std::optional<ImageSize> size = std::nullopt);
 
-/// The ray map of a `.npy` file (float32 or float64, H x W x 3, either byte order, C or Fortran order). Directions need
-/// not be of unit length; zero or NaN means no ray.
+/// A text from which make_camera makes the same camera: focal lengths and principal point in pixels, image size, and
+/// whatever differs from the lens's defaults; for a ray map its file. Throws CommandError for a ray map without one.
+std::string to_text(const Camera& camera);
+
+/// No image has more pixels along a side.
+inline constexpr int max_image_side = 65536;
+
+/// Throws CommandError unless both sides lie within 1 and max_image_side. `what` begins the message.
+void check_image_size(std::string_view what, ImageSize size);
+
+/// The ray map of a `.npy` file (float32 or float64, H x W x 3, either byte order, C or Fortran order): for each
+/// pixel's centre, rows from the top, a direction in the camera frame (x right, y up, looking along -z). Directions
+/// need not be of unit length; zero or what is not finite means no ray. Throws InputError for any other content.
 RayMap load_ray_map(const std::filesystem::path& path);
 
 }  // namespace omma

@@ -21,8 +21,10 @@ struct LensParameters {
 /// Which extent of the image a field of view spans.
 enum class Fit { width, height, shorter, longer, diagonal };
 
+const char* fit_name(Fit fit);
+
 struct LensParameterInfo {
-  const char* name;  ///< with its unit where it has one: `fov_deg`
+  const char* name;
   double default_value;
   double min, max;
   const char* description;
@@ -30,15 +32,16 @@ struct LensParameterInfo {
 
 /// What a lens says of itself; everything printed about lenses comes from here.
 struct LensInfo {
-  const char* name;         ///< as on the command line
-  const char* also;         ///< other names people know it by
-  const char* formula;      ///< one line, r as a function of θ or x, y of longitude and latitude
-  const char* source;       ///< paper, section or tool the formula comes from
-  double default_fov_deg;   ///< 0: has no field of view of its own and needs a focal length
-  double max_fov_deg;       ///< fields of view may come up to this
-  bool max_fov_inclusive;   ///< or only below it
-  Fit default_fit;          ///< which side fov_deg spans unless `fit=` says otherwise
-  bool radial;              ///< symmetric about the axis: any fit makes sense
+  const char* name;        ///< as on the command line
+  const char* also;        ///< other names that are understood, separated by ", "
+  const char* formula;     ///< one line, r as a function of θ or x, y of longitude and latitude
+  const char* source;      ///< paper, section or tool the formula comes from
+  const char* example;     ///< a camera of this lens, all its parameters in use, as make_camera takes it
+  double default_fov_deg;  ///< 0: none, a field of view or a focal length must be given
+  double max_fov_deg;      ///< fields of view may come up to this, across the width where not radial
+  bool max_fov_inclusive;  ///< or only below it
+  Fit default_fit;         ///< which side fov_deg spans unless `fit=` says otherwise
+  bool radial;             ///< symmetric about the axis: any fit makes sense
   std::span<const LensParameterInfo> parameters;
   /// Radians from the axis up to which the formula is defined for these parameters.
   double (*max_angle)(const LensParameters&);
@@ -46,6 +49,7 @@ struct LensInfo {
 
 /// A lens as functions. Both take and give the optical frame of the calibration literature (x right, y down, z
 /// forward) and the model's plane (unit focal length, x right, y down); they return whether the result is valid.
+/// Directions given are finite and not zero, those returned are of unit length.
 struct LensModel {
   const LensInfo& info;
   bool (*project)(const LensParameters&, glm::dvec3 direction, glm::dvec2& plane);
@@ -58,7 +62,10 @@ struct LensModel {
 /// Every lens, in the order of models.def.
 std::span<const LensModel> lens_models();
 
-/// Null when there is none of that name.
+/// By its name or one of its other names; null when there is none.
 const LensModel* find_lens_model(std::string_view name);
+
+/// The names in `info.also`.
+std::vector<std::string> other_names(const LensInfo& info);
 
 }  // namespace omma

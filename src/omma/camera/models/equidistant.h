@@ -2,9 +2,10 @@
 #ifdef __cplusplus
 inline constexpr LensInfo equidistant_info = {
     .name = "equidistant",
-    .also = "f-theta, linear fisheye, fisheye (ffmpeg), equiangular",
+    .also = "fisheye, f-theta, linear_fisheye, equiangular",
     .formula = "r = θ",
     .source = "Gascuel et al. 2008, table 1, fish-eye (2)",
+    .example = "equidistant:fov_deg=180",
     .default_fov_deg = 180,
     .max_fov_deg = 360,
     .max_fov_inclusive = true,

@@ -1,16 +1,11 @@
 // What all lenses that are symmetric about their axis share: r = f(θ) is the whole of them.
 
-// Radians between the optical axis (+z) and a direction of any length.
-LENS_FUNCTION real angle_from_axis(vec3 direction) {
-  return atan(length(vec2(direction.x, direction.y)), direction.z);
-}
-
 // The plane point at radius r in the direction's meridian. At the axis it is the centre; at the antipode, which is a
 // whole circle of the image, the circle's rightmost point.
 LENS_FUNCTION bool radial_project(Params params, vec3 direction, real theta, real r, OUT(vec2) plane) {
   vec2 across = vec2(direction.x, direction.y);
   real rho = length(across);
-  plane = rho > real(0.0) ? across * (r / rho) : vec2(theta > real(1.0) ? r : real(0.0), real(0.0));
+  plane = rho > real(0.0) ? across * (r / rho) : vec2(direction.z < real(0.0) ? r : real(0.0), real(0.0));
   return theta <= params.max_angle;
 }
 

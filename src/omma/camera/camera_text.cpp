@@ -1,0 +1,313 @@
+// Cameras as people write them: `equidistant:fov_deg=180,fit=full`.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "omma/base/error.h"
+#include "omma/base/names.h"
+#include "omma/camera/camera.h"
+#include "omma/camera/camera_parameters.h"
+
+namespace omma {
+namespace {
+
+constexpr double radians_per_degree = 3.14159265358979323846 / 180.0;
+constexpr ImageSize default_size{1600, 1200};
+
+constexpr CameraParameterInfo common_parameters[] = {
+    {"fov_deg", "per lens",
+     "field of view in degrees, of the extent of the image that `fit` names, the principal point in "
+     "its middle"},
+    {"fit", "per lens",
+     "`width`, `height`, `shorter` (or `circle`), `longer`, or `diagonal` (or `full`; radial lenses "
+     "only). With `shorter` a radial lens shows nothing beyond half of `fov_deg`: an image circle. "
+     "With the others it fills the image as far as its formula goes"},
+    {"f", "none", "focal length in pixels, instead of `fov_deg`"},
+    {"fx, fy", "none", "horizontal and vertical focal length in pixels, instead of `f`"},
+    {"cx, cy", "middle", "principal point in pixels from the image's top left corner"},
+    {"width, height", "the size asked for",
+     "pixels; the image that the other values are for. Another size of the same shape scales them"},
+    {"max_angle_deg", "from `fit`", "degrees from the axis beyond which nothing is seen"},
+};
+
+constexpr const char* focal_names[] = {"f", "fx", "fy"};
+
+struct FitName {
+  const char* name;
+  Fit fit;
+};
+constexpr FitName fit_names[] = {
+    {"width", Fit::width},       {"height", Fit::height},  {"shorter", Fit::shorter}, {"longer", Fit::longer},
+    {"diagonal", Fit::diagonal}, {"circle", Fit::shorter}, {"full", Fit::diagonal},
+};
+
+// A lens's text taken apart: which of its parameters are there, and what they hold.
+class LensText {
+ public:
+  LensText(const LensModel& model, Spec spec) : model_(model), spec_(std::move(spec)) {
+    std::vector<std::string> names;
+    for (const CameraParameterInfo& parameter : common_parameters) {
+      for (const std::string& name : split(parameter.name, ',')) {
+        names.push_back(name.substr(name.find_first_not_of(' ')));
+      }
+    }
+    for (const LensParameterInfo& parameter : model.info.parameters) {
+      names.emplace_back(parameter.name);
+    }
+    for (const auto& [key, value] : spec_.values) {
+      if (std::ranges::find(names, key) == names.end()) {
+        throw CommandError("{}", unknown_name(spec_.name + " parameter", key, names));
+      }
+    }
+  }
+
+  bool has(const std::string& key) const { return spec_.values.contains(key); }
+
+  const std::string& value(const std::string& key) const { return spec_.values.at(key); }
+
+  /// "equidistant: fov_deg", the beginning of a message.
+  std::string label(std::string_view key) const { return fmt::format("{}: {}", spec_.name, key); }
+
+  std::optional<double> number(const std::string& key) const {
+    if (!has(key)) return {};
+    return parse_number(label(key), value(key));
+  }
+
+  double number_within(const std::string& key, double low, double high, double otherwise) const {
+    const double number = this->number(key).value_or(otherwise);
+    if (!(number >= low && number <= high)) {
+      throw CommandError("{}={} is out of range; {} to {} is accepted", label(key), number, low, high);
+    }
+    return number;
+  }
+
+  std::optional<ImageSize> size() const {
+    if (has("width") != has("height")) {
+      throw CommandError("{} is missing: width and height go together", label(has("width") ? "height" : "width"));
+    }
+    if (!has("width")) return {};
+    const auto side = [&](const std::string& key) {
+      const long pixels = parse_integer(label(key), value(key));
+      return static_cast<int>(std::clamp(pixels, -1L, max_image_side + 1L));
+    };
+    const ImageSize size{side("width"), side("height")};
+    check_image_size(spec_.name, size);
+    return size;
+  }
+
+  Fit fit() const {
+    const LensInfo& info = model_.info;
+    if (!has("fit")) return info.default_fit;
+    const auto* found = std::ranges::find(fit_names, value("fit"), &FitName::name);
+    if (found == std::end(fit_names)) {
+      std::vector<std::string> choices;
+      for (const FitName& choice : fit_names) choices.emplace_back(choice.name);
+      throw CommandError("{}", unknown_name(label("fit"), value("fit"), choices));
+    }
+    if (found->fit == Fit::diagonal && !info.radial) {
+      throw CommandError(
+          "{}: fit={} needs a lens that is the same in every direction from its axis, which {} is "
+          "not; width, height, shorter or longer is accepted",
+          spec_.name, value("fit"), info.name);
+    }
+    return found->fit;
+  }
+
+ private:
+  const LensModel& model_;
+  Spec spec_;
+};
+
+double half_extent(Fit fit, const ImageSize& size) {
+  const double width = 0.5 * size.width, height = 0.5 * size.height;
+  switch (fit) {
+    case Fit::width:
+      return width;
+    case Fit::height:
+      return height;
+    case Fit::shorter:
+      return std::min(width, height);
+    case Fit::longer:
+      return std::max(width, height);
+    case Fit::diagonal:
+      break;
+  }
+  return std::hypot(width, height);
+}
+
+// How wide a field of view a lens can have along one extent of the image.
+struct FovLimit {
+  double deg;
+  bool inclusive;
+};
+
+FovLimit fov_limit(const Lens& lens, bool along_height) {
+  const LensInfo& info = lens.model->info;
+  if (!info.radial && along_height) {
+    // Between the poles, if the lens shows them.
+    glm::dvec2 plane;
+    return {180.0, lens.model->project(lens.parameters, {0.0, 1.0, 0.0}, plane)};
+  }
+  const double formula_deg = 2.0 * info.max_angle(lens.parameters) / radians_per_degree;
+  if (formula_deg < info.max_fov_deg - 1e-3) return {formula_deg, true};
+  return {info.max_fov_deg, info.max_fov_inclusive};
+}
+
+// The focal length at which `fov_deg` spans the extent of the image that `fit` names.
+double focal_from_fov(const LensText& text, const Lens& lens, Fit fit, double fov_deg) {
+  const bool upright = lens.size.height > lens.size.width;
+  const bool along_height = fit == Fit::height || (fit == Fit::shorter && !upright) || (fit == Fit::longer && upright);
+  const FovLimit limit = fov_limit(lens, along_height);
+  const double half = 0.5 * fov_deg * radians_per_degree;
+  const glm::dvec3 edge =
+      along_height ? glm::dvec3(0.0, std::sin(half), std::cos(half)) : glm::dvec3(std::sin(half), 0.0, std::cos(half));
+  glm::dvec2 plane;
+  const bool within = fov_deg >= min_fov_deg && (fov_deg < limit.deg || (limit.inclusive && fov_deg == limit.deg));
+  if (!within || !lens.model->project(lens.parameters, edge, plane)) {
+    throw CommandError("{}={} is out of range; {} to {}{} is accepted{}", text.label("fov_deg"), fov_deg, min_fov_deg,
+                       limit.inclusive ? "" : "less than ", limit.deg,
+                       lens.model->info.radial ? "" : fmt::format(" along the {}", along_height ? "height" : "width"));
+  }
+  return half_extent(fit, lens.size) / (along_height ? plane.y : plane.x);
+}
+
+// Sets focal lengths from whichever of `f`, `fx` and `fy`, or `fov_deg` is there, and how far the lens sees.
+void set_focal_and_angle(const LensText& text, Lens& lens) {
+  const LensInfo& info = lens.model->info;
+  const double limit = info.max_angle(lens.parameters);
+  lens.parameters.max_angle = limit;
+
+  const auto* focal_name = std::ranges::find_if(focal_names, [&](const char* key) { return text.has(key); });
+  if (focal_name != std::end(focal_names)) {
+    for (const char* other : {"fov_deg", "fit"}) {
+      if (text.has(other)) {
+        throw CommandError("{} and {} say the same thing twice; give one of them", text.label(*focal_name), other);
+      }
+    }
+    if (text.has("f") && (text.has("fx") || text.has("fy"))) {
+      throw CommandError("{} stands for both fx and fy; give f alone, or fx and fy", text.label("f"));
+    }
+    if (!text.has("f") && text.has("fx") != text.has("fy")) {
+      throw CommandError("{} is missing: give fx and fy, or f for both", text.label(text.has("fx") ? "fy" : "fx"));
+    }
+    const auto focal = [&](const char* key) { return text.number_within(text.has("f") ? "f" : key, 1e-3, 1e9, 0.0); };
+    lens.focal = {focal("fx"), focal("fy")};
+  } else {
+    if (!text.has("fov_deg") && info.default_fov_deg == 0) {
+      throw CommandError("{} is missing, and so are f, fx and fy: a calibrated lens has no default; for example {}",
+                         text.label("fov_deg"), info.example);
+    }
+    const Fit fit = text.fit();
+    const double fov_deg = text.number("fov_deg").value_or(info.default_fov_deg);
+    lens.focal = glm::dvec2(focal_from_fov(text, lens, fit, fov_deg));
+    if (fit == Fit::shorter && info.radial) {
+      lens.parameters.max_angle = std::min(limit, 0.5 * fov_deg * radians_per_degree);
+    }
+  }
+
+  if (text.has("max_angle_deg")) {
+    const double limit_deg = limit / radians_per_degree;
+    const double angle_deg = text.number_within("max_angle_deg", 0.5 * min_fov_deg, limit_deg * (1 + 1e-12), limit_deg);
+    lens.parameters.max_angle = std::min(limit, angle_deg * radians_per_degree);
+  }
+}
+
+// The same lens for an image of another size but the same shape, up to rounding to whole pixels.
+void rescale(const LensText& text, Lens& lens, const ImageSize& size) {
+  const glm::dvec2 own(lens.size.width, lens.size.height), wanted(size.width, size.height);
+  const bool same_shape =
+      std::abs(wanted.y - wanted.x * own.y / own.x) <= 0.5 || std::abs(wanted.x - wanted.y * own.x / own.y) <= 0.5;
+  if (!same_shape) {
+    throw CommandError(
+        "{} x {} are for an image of {} x {}, and {} x {} has another shape; ask for a size of the "
+        "same shape, for example {} x {}",
+        text.label("width"), "height", own.x, own.y, wanted.x, wanted.y, wanted.x,
+        std::max(1.0, std::round(wanted.x * own.y / own.x)));
+  }
+  const glm::dvec2 scale = wanted / own;
+  lens.focal *= scale;
+  lens.centre *= scale;
+  lens.size = size;
+}
+
+Camera make_lens_camera(const LensModel& model, Spec spec, std::optional<ImageSize> size) {
+  const std::string name = spec.name;
+  const LensText text(model, std::move(spec));
+  const std::optional<ImageSize> own_size = text.size();
+
+  Lens lens;
+  lens.model = &model;
+  lens.size = own_size ? *own_size : size.value_or(default_size);
+  for (size_t i = 0; i < model.info.parameters.size(); ++i) {
+    const LensParameterInfo& parameter = model.info.parameters[i];
+    lens.parameters.k[i] = text.number_within(parameter.name, parameter.min, parameter.max, parameter.default_value);
+  }
+  set_focal_and_angle(text, lens);
+  lens.centre = {text.number("cx").value_or(0.5 * lens.size.width), text.number("cy").value_or(0.5 * lens.size.height)};
+  if (size && *size != lens.size) rescale(text, lens, *size);
+
+  Camera camera(std::move(lens));
+  if (camera.pixels_per_radian() == 0.0) {
+    throw CommandError("{}: the camera sees nothing: cx and cy put all it could see outside the image", name);
+  }
+  return camera;
+}
+
+}  // namespace
+
+std::span<const CameraParameterInfo> common_camera_parameters() { return common_parameters; }
+
+void check_image_size(std::string_view what, ImageSize size) {
+  for (const int side : {size.width, size.height}) {
+    if (side < 1 || side > max_image_side) {
+      throw CommandError("{}: an image of {} x {} pixels; 1 to {} a side is accepted", what, size.width, size.height,
+                         max_image_side);
+    }
+  }
+}
+
+Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
+  if (size) check_image_size("size", *size);
+  if (text.ends_with(".npy")) {
+    RayMap map = load_ray_map(text);
+    if (size && *size != map.size) {
+      throw CommandError("{}: the ray map has {} x {} pixels and {} x {} was asked for; leave the size away", text,
+                         map.size.width, map.size.height, size->width, size->height);
+    }
+    return Camera(std::move(map));
+  }
+  Spec spec = parse_spec(text);
+  const LensModel* model = find_lens_model(spec.name);
+  if (!model) {
+    std::vector<std::string> names;
+    for (const LensModel& known : lens_models()) names.emplace_back(known.info.name);
+    throw CommandError("{}; or the name of a ray map, a .npy file", unknown_name("camera", spec.name, names));
+  }
+  return make_lens_camera(*model, std::move(spec), size);
+}
+
+std::string to_text(const Camera& camera) {
+  const Lens* lens = camera.lens();
+  if (!lens) {
+    const std::string& source = camera.ray_map()->source;
+    if (source.empty()) throw CommandError("a ray map that comes from no file cannot be written as text");
+    return source;
+  }
+  const LensInfo& info = lens->model->info;
+  std::string text = fmt::format("{}:", info.name);
+  text += lens->focal.x == lens->focal.y ? fmt::format("f={}", lens->focal.x)
+                                         : fmt::format("fx={},fy={}", lens->focal.x, lens->focal.y);
+  text += fmt::format(",cx={},cy={},width={},height={}", lens->centre.x, lens->centre.y, lens->size.width,
+                      lens->size.height);
+  if (lens->parameters.max_angle != info.max_angle(lens->parameters)) {
+    text += fmt::format(",max_angle_deg={}", lens->parameters.max_angle / radians_per_degree);
+  }
+  for (size_t i = 0; i < info.parameters.size(); ++i) {
+    if (lens->parameters.k[i] != info.parameters[i].default_value) {
+      text += fmt::format(",{}={}", info.parameters[i].name, lens->parameters.k[i]);
+    }
+  }
+  return text;
+}
+
+}  // namespace omma

@@ -1,0 +1,66 @@
+#include "omma/camera/lens_table.h"
+
+#include <fmt/format.h>
+
+#include "omma/camera/camera_parameters.h"
+#include "omma/camera/lens_model.h"
+
+namespace omma {
+namespace {
+
+std::string fov_range(const LensInfo& info) {
+  return fmt::format("{}{}°", info.max_fov_inclusive ? "up to " : "below ", info.max_fov_deg);
+}
+
+std::string default_fov(const LensInfo& info) {
+  return info.default_fov_deg == 0 ? "none" : fmt::format("{}°", info.default_fov_deg);
+}
+
+}  // namespace
+
+std::string lens_table_markdown() {
+  std::string text =
+      "| name | other names | formula | `fov_deg` | default | default `fit` | source |\n"
+      "|---|---|---|---|---|---|---|\n";
+  for (const LensModel& model : lens_models()) {
+    const LensInfo& info = model.info;
+    text += fmt::format("| `{}` | {} | {} | {} | {} | `{}` | {} |\n", info.name, info.also, info.formula,
+                        fov_range(info), default_fov(info), fit_name(info.default_fit), info.source);
+  }
+  for (const LensModel& model : lens_models()) {
+    const LensInfo& info = model.info;
+    if (info.parameters.empty()) continue;
+    text += fmt::format("\nParameters of `{}`, for example `{}`:\n\n", info.name, info.example);
+    text += "| parameter | default | range | meaning |\n|---|---|---|---|\n";
+    for (const LensParameterInfo& parameter : info.parameters) {
+      text += fmt::format("| `{}` | {} | {} to {} | {} |\n", parameter.name, parameter.default_value, parameter.min,
+                          parameter.max, parameter.description);
+    }
+  }
+  text += "\nParameters of every lens:\n\n| parameter | default | meaning |\n|---|---|---|\n";
+  for (const CameraParameterInfo& parameter : common_camera_parameters()) {
+    text += fmt::format("| `{}` | {} | {} |\n", parameter.name, parameter.default_text, parameter.description);
+  }
+  return text;
+}
+
+std::string lens_table_text() {
+  std::string text;
+  for (const LensModel& model : lens_models()) {
+    const LensInfo& info = model.info;
+    text += fmt::format("{}\n  also     {}\n  formula  {}\n  fov_deg  {}, default {}, spans the {}\n", info.name,
+                        info.also, info.formula, fov_range(info), default_fov(info), fit_name(info.default_fit));
+    for (const LensParameterInfo& parameter : info.parameters) {
+      text += fmt::format("  {:<8} {} ({} to {}, default {})\n", parameter.name, parameter.description, parameter.min,
+                          parameter.max, parameter.default_value);
+    }
+    text += fmt::format("  example  {}\n  source   {}\n\n", info.example, info.source);
+  }
+  text += "Every lens takes:\n";
+  for (const CameraParameterInfo& parameter : common_camera_parameters()) {
+    text += fmt::format("  {:<14} {} (default: {})\n", parameter.name, parameter.description, parameter.default_text);
+  }
+  return text;
+}
+
+}  // namespace omma

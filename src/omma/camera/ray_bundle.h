@@ -1,0 +1,16 @@
+// All rays of a camera's image at once.
+#pragma once
+
+#include "omma/camera/camera.h"
+#include "omma/math/ray.h"
+
+namespace omma {
+
+/// The directions at the centres of the pixels of `region`, which may reach beyond the image: a lens has rays there
+/// too, a ray map has none. In the camera frame, zero where there is no ray. Runs on all cores.
+RayMap rays_of(const Camera& camera, const PixelRect& region);
+
+/// Those of the whole image.
+RayMap rays_of(const Camera& camera);
+
+}  // namespace omma
