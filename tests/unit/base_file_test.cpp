@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -56,6 +57,20 @@ TEST_F(File, FailedStreamIsAMachineError) {
   EXPECT_THROW(write_stream(folder_ / "a", [](std::ostream& stream) { stream.setstate(std::ios::failbit); }),
                MachineError);
   EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(File, OnlyWhatADeadProcessLeftIsRemoved) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);  // a number that no process has any more
+  write_text(folder_ / fmt::format(".a_0001.{}.part.png", child), "half");
+  write_text(folder_ / fmt::format(".b.{}.part", child), "half");
+  write_text(folder_ / fmt::format(".a_0002.{}.part.png", ::getpid()), "being written");
+  write_text(folder_ / fmt::format("mine.{}.part.png", child), "no dot");
+  remove_abandoned(folder_);
+  EXPECT_EQ(files(), 2u);
+  EXPECT_TRUE(fs::exists(folder_ / fmt::format(".a_0002.{}.part.png", ::getpid())));
+  remove_abandoned(folder_ / "missing");
 }
 
 TEST_F(File, UnusablePathsAreRefusedBeforehand) {

@@ -3,10 +3,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <system_error>
+#include <vector>
 
 #include "omma/base/error.h"
 
@@ -57,6 +60,20 @@ void write_whole(const fs::path& path, const std::function<void(const fs::path&)
     fs::remove(temporary, ignored);
     throw;
   }
+}
+
+void remove_abandoned(const fs::path& folder) {
+  static const std::regex temporary_name(R"(\..*\.([0-9]{1,9})\.part(\..*)?)", std::regex::optimize);
+  std::error_code error;
+  std::vector<fs::path> abandoned;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    std::smatch match;
+    const std::string name = entry.path().filename().string();
+    if (!std::regex_match(name, match, temporary_name)) continue;
+    const bool writer_lives = ::kill(std::stoi(match[1]), 0) == 0 || errno != ESRCH;
+    if (!writer_lives) abandoned.push_back(entry.path());
+  }
+  for (const fs::path& path : abandoned) fs::remove(path, error);
 }
 
 void write_stream(const fs::path& path, const std::function<void(std::ostream&)>& write) {

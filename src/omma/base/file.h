@@ -20,6 +20,9 @@ void require_writable(const std::filesystem::path& path);
 void write_whole(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path& temporary)>& write);
 
+/// Removes the temporary files in `folder` that write_whole left behind when its process was killed.
+void remove_abandoned(const std::filesystem::path& folder);
+
 /// write_whole through a binary stream; MachineError when the stream fails.
 void write_stream(const std::filesystem::path& path, const std::function<void(std::ostream& stream)>& write);
 

@@ -1,0 +1,24 @@
+// Reading the values of options.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "omma/math/ray.h"
+
+namespace omma::tool {
+
+/// An option's value as it was typed; empty when it was not given.
+using Text = std::optional<std::string>;
+
+/// Each throws CommandError naming `option` and what is accepted.
+double number_of(std::string_view option, const std::string& text, double min, double max);
+int count_of(std::string_view option, const std::string& text, int min, int max);
+glm::dvec2 vector2_of(std::string_view option, const std::string& text);
+glm::dvec3 vector3_of(std::string_view option, const std::string& text);
+/// `1600x1200`
+ImageSize size_of(std::string_view option, const std::string& text);
+
+}  // namespace omma::tool

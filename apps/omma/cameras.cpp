@@ -1,0 +1,26 @@
+// omma cameras: every lens with its formula and parameters.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <memory>
+
+#include "commands.h"
+#include "omma/camera/lens_table.h"
+
+namespace omma::tool {
+
+void add_cameras(CLI::App& tool) {
+  CLI::App* command = tool.add_subcommand("cameras", "List the lenses and their parameters");
+  auto markdown = std::make_shared<bool>(false);
+  command->add_flag("--markdown", *markdown, "Print the tables of docs/cameras.md");
+  command->footer(
+      "A camera is written NAME:KEY=VALUE,KEY=VALUE or is the name of a ray map, a .npy file with H x W x 3 "
+      "directions.\n"
+      "Examples:\n"
+      "  omma cameras\n"
+      "  omma camera equidistant:fov_deg=180,fit=diagonal    what one camera comes to");
+  command->callback(
+      [markdown] { fmt::print("{}", *markdown ? omma::lens_table_markdown() : omma::lens_table_text()); });
+}
+
+}  // namespace omma::tool

@@ -1,0 +1,22 @@
+// The subcommands of the tool. Each adds itself with its options; its callback throws omma::Error, or ExitCode for a
+// code that is no error.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace omma::tool {
+
+/// Ends the tool with this code, everything worth saying having been said.
+struct ExitCode {
+  int code;
+};
+
+void add_render(CLI::App& tool);
+void add_compare(CLI::App& tool);
+void add_camera(CLI::App& tool);
+void add_cameras(CLI::App& tool);
+void add_scenes(CLI::App& tool);
+void add_techniques(CLI::App& tool);
+void add_doctor(CLI::App& tool);
+
+}  // namespace omma::tool

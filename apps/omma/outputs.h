@@ -1,0 +1,24 @@
+// The files that a rendering goes to: `-o city.png -o city.exr:distance`, `-o 'frame_%04d.png'`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "omma/image/image.h"
+
+namespace omma::tool {
+
+struct Output {
+  std::string path;  ///< may hold one pattern such as %04d that stands for the frame's number
+  Channel channel = Channel::color;
+
+  bool has_pattern() const;
+  std::filesystem::path path_of(int frame) const;
+};
+
+/// From the texts of -o. Throws CommandError for an unknown channel or format, a format that cannot hold the channel, a
+/// folder that is missing, a file named twice, a pattern that is none.
+std::vector<Output> parse_outputs(const std::vector<std::string>& texts);
+
+}  // namespace omma::tool

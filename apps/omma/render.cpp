@@ -1,0 +1,294 @@
+// omma render: a scene through a camera into files.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <set>
+
+#include "arguments.h"
+#include "commands.h"
+#include "omma/base/error.h"
+#include "omma/base/file.h"
+#include "omma/base/names.h"
+#include "omma/image/write.h"
+#include "omma/technique/renderer.h"
+#include "outputs.h"
+#include "progress.h"
+#include "stats.h"
+#include "view.h"
+
+namespace omma::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As typed.
+struct Options {
+  std::string scene, camera, technique = "auto";
+  Text size, samples, filter, background, face_size, tile, stats;
+  ViewOptions view;
+  std::vector<std::string> outputs;
+  bool overwrite = false;
+};
+
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Filter filter_of(const std::string& text) {
+  const std::vector<std::string> names{"trilinear", "anisotropic"};
+  if (text == names[0]) return Filter::trilinear;
+  if (text == names[1]) return Filter::anisotropic;
+  throw CommandError("{}", unknown_name("filter", text, names));
+}
+
+std::optional<glm::vec3> background_of(const std::string& text) {
+  if (text == "sky") return std::nullopt;
+  if (text.find(',') == std::string::npos) {
+    throw CommandError("--background '{}': sky, or linear r,g,b such as 0,0,0 is accepted", text);
+  }
+  const glm::dvec3 color = vector3_of("--background", text);
+  if (glm::any(glm::lessThan(color, glm::dvec3(0.0)))) {
+    throw CommandError("--background {}: light is not negative", text);
+  }
+  return glm::vec3(color);
+}
+
+RenderOptions render_options_of(const Options& options) {
+  constexpr int most_samples = 1024;
+  RenderOptions result;
+  check_technique(options.technique);
+  result.technique = options.technique;
+  if (options.samples) result.samples = count_of("--samples", *options.samples, 1, most_samples);
+  if (options.filter) result.filter = filter_of(*options.filter);
+  if (options.background) result.background = background_of(*options.background);
+  if (options.face_size) result.face_size = count_of("--face-size", *options.face_size, 1, max_image_side);
+  if (options.tile) result.tile = count_of("--tile", *options.tile, 16, max_image_side);
+  return result;
+}
+
+/// A rendering whose every argument has been checked; nothing has been loaded yet.
+class Job {
+ public:
+  explicit Job(const Options& options)
+      : scene_text_(options.scene),
+        camera_text_(options.camera),
+        outputs_(parse_outputs(options.outputs)),
+        render_options_(render_options_of(options)),
+        view_(options.view),
+        camera_(make_camera(options.camera, size_option(options))),
+        stats_path_(options.stats),
+        overwrite_(options.overwrite) {
+    if (stats_path_) require_writable(*stats_path_);
+    require_patterns(options.view.pose.has_value());
+    require_project();
+    for (const Output& output : outputs_) {
+      if (std::find(channels_.begin(), channels_.end(), output.channel) == channels_.end()) {
+        channels_.push_back(output.channel);
+      }
+    }
+  }
+
+  void run() {
+    const std::vector<Frame> frames = missing_frames();
+    JobStats stats = job_stats(frames.size());
+    if (frames.empty()) {
+      fmt::print(stderr, "all {} frames are there already; --overwrite renders them anew\n", view_.frames().size());
+    } else {
+      if (stats.skipped > 0) {
+        fmt::print(stderr, "{} frames are there already, {} are missing\n", stats.skipped, frames.size());
+      }
+      render(frames, stats);
+    }
+    if (stats_path_) write_stats(*stats_path_, stats);
+  }
+
+ private:
+  static std::optional<ImageSize> size_option(const Options& options) {
+    if (!options.size) return std::nullopt;
+    return size_of("--size", *options.size);
+  }
+
+  bool numbered() const {
+    return std::all_of(outputs_.begin(), outputs_.end(), [](const Output& output) { return output.has_pattern(); });
+  }
+
+  void require_patterns(bool has_pose_file) const {
+    for (const Output& output : outputs_) {
+      if (view_.is_sequence() && !output.has_pattern()) {
+        const fs::path path(output.path);
+        throw CommandError("-o {}: {} pictures cannot go to one file; put their number into the name: {}_%04d{}",
+                           output.path, view_.frames().size(), path.stem().string(), path.extension().string());
+      }
+      if (!view_.is_sequence() && !has_pose_file && output.has_pattern()) {
+        throw CommandError("-o {}: a numbered name is for sequences; add --frames, or --pose with a list of poses",
+                           output.path);
+      }
+    }
+  }
+
+  void require_project() const {
+    if (camera_.lens()) return;
+    const std::string name = split(render_options_.technique, ':').front();
+    for (const TechniqueInfo& technique : techniques()) {
+      if (technique.name == name && technique.needs_project) {
+        throw CommandError("--technique {}: needs a camera that projects by a formula; '{}' is a ray map", name,
+                           camera_text_);
+      }
+    }
+  }
+
+  /// Files are renamed into place when they are complete, so that what exists is whole.
+  std::vector<Frame> missing_frames() const {
+    if (!numbered()) return view_.frames();
+    std::set<fs::path> folders;
+    for (const Output& output : outputs_) folders.insert(fs::absolute(output.path).parent_path());
+    for (const fs::path& folder : folders) remove_abandoned(folder);
+    if (overwrite_) return view_.frames();
+    std::vector<Frame> missing;
+    for (const Frame& frame : view_.frames()) {
+      const bool there = std::all_of(outputs_.begin(), outputs_.end(),
+                                     [&](const Output& output) { return fs::exists(output.path_of(frame.number)); });
+      if (!there) missing.push_back(frame);
+    }
+    return missing;
+  }
+
+  JobStats job_stats(size_t frames) const {
+    JobStats stats;
+    stats.scene = scene_text_;
+    stats.camera = camera_text_;
+    stats.size = camera_.size();
+    stats.samples = render_options_.samples;
+    stats.skipped = static_cast<int>(view_.frames().size() - frames);
+    return stats;
+  }
+
+  void render(const std::vector<Frame>& frames, JobStats& stats) {
+    auto begin = std::chrono::steady_clock::now();
+    Scene scene = load_scene(scene_text_);
+    if (view_.names_time() && scene.animations.empty()) {
+      warn(fmt::format("{}: has no animation, the time changes nothing", scene_text_));
+    }
+    view_.apply_time(scene, frames.front());
+    if (const std::string choice = view_.unspoken_choice(scene); !choice.empty()) {
+      fmt::print(stderr, "{}\n", choice);
+    }
+    view_.worldFromCamera(scene, frames.front());  // fails before anything slow
+    stats.load_ms = milliseconds_since(begin);
+
+    begin = std::chrono::steady_clock::now();
+    Renderer renderer;
+    renderer.load(scene);
+    stats.upload_ms = milliseconds_since(begin);
+
+    if (frames.size() == 1) {
+      stats.frames.push_back(render_frame(renderer, scene, frames.front()));
+      report(stats.frames.back());
+      return;
+    }
+    Progress progress("frames", static_cast<int>(frames.size()));
+    for (const Frame& frame : frames) {
+      if (view_.apply_time(scene, frame)) renderer.update();
+      FrameStats frame_stats = render_frame(renderer, scene, frame);
+      if (stats_path_) stats.frames.push_back(std::move(frame_stats));
+      progress.step();
+    }
+  }
+
+  FrameStats render_frame(Renderer& renderer, const Scene& scene, const Frame& frame) const {
+    FrameStats stats;
+    stats.frame = frame.number;
+    auto begin = std::chrono::steady_clock::now();
+    const std::map<Channel, Image> images =
+        renderer.render(camera_, view_.worldFromCamera(scene, frame), channels_, render_options_, &stats.render);
+    stats.render_ms = milliseconds_since(begin);
+
+    begin = std::chrono::steady_clock::now();
+    for (const Output& output : outputs_) {
+      const fs::path path = output.path_of(frame.number);
+      write_image(path, images.at(output.channel), output.channel);
+      stats.files.push_back(path.string());
+    }
+    stats.write_ms = milliseconds_since(begin);
+    return stats;
+  }
+
+  void report(const FrameStats& frame) const {
+    fmt::print(stderr, "{}: {} x {}, {} on {}, {:.1f} ms\n", fmt::join(frame.files, ", "), camera_.size().width,
+               camera_.size().height, frame.render.technique, frame.render.renderer, frame.render_ms);
+  }
+
+  std::string scene_text_, camera_text_;
+  std::vector<Output> outputs_;
+  std::vector<Channel> channels_;
+  RenderOptions render_options_;
+  View view_;
+  Camera camera_;
+  std::optional<std::string> stats_path_;
+  bool overwrite_;
+};
+
+std::string channel_help() {
+  std::string text = "Channels (-o FILE:CHANNEL):\n";
+  for (const ChannelInfo& info : channels()) text += fmt::format("  {:<10}{}\n", info.name, info.description);
+  return text;
+}
+
+}  // namespace
+
+void add_render(CLI::App& tool) {
+  CLI::App* command = tool.add_subcommand("render", "Render a scene through a camera");
+  auto options = std::make_shared<Options>();
+  command->add_option("scene", options->scene, "A file that assimp reads, or a built-in scene (see 'omma scenes')")
+      ->type_name("SCENE")
+      ->required();
+  command->add_option("--camera", options->camera, "A lens with its parameters, or a .npy ray map (see 'omma cameras')")
+      ->type_name("CAMERA")
+      ->required();
+  command
+      ->add_option("-o,--output", options->outputs,
+                   "File to write: .png .jpg .exr .pfm .npy; may be given several times, each with its channel")
+      ->type_name("FILE[:CHANNEL]")
+      ->allow_extra_args(false)
+      ->required();
+  const auto add = [&](const char* group, const char* name, const char* type, auto& value, const char* description) {
+    command->add_option(name, value, description)->type_name(type)->group(group);
+  };
+  const char* picture = "Picture";
+  add(picture, "--technique", "T[:VARIANT]", options->technique, "How to draw, default auto (see 'omma techniques')");
+  add(picture, "--size", "WxH", options->size, "Pixels, default 1600x1200 or the camera's own");
+  add(picture, "--samples", "N", options->samples, "Colour samples a pixel, 1 to 1024, default 4");
+  add(picture, "--filter", "F", options->filter, "Textures: trilinear or anisotropic (default)");
+  add(picture, "--background", "sky|R,G,B", options->background, "Where nothing is: a sky (default) or linear RGB");
+  add(picture, "--face-size", "N", options->face_size,
+      "image-based: texels along a cube face, default the camera's density at its centre");
+  add(picture, "--tile", "N", options->tile, "Largest tile in pixels, default what the driver allows");
+  const char* view = "View (without any: the scene's first camera, else its default view)";
+  add(view, "--from", "X,Y,Z", options->view.from, "Where the camera stands, world metres, +Y up");
+  add(view, "--to", "X,Y,Z", options->view.to, "What it looks at");
+  add(view, "--up", "X,Y,Z", options->view.up, "What is up in the picture, default 0,1,0");
+  add(view, "--pose", "FILE", options->view.pose,
+      "Poses instead: TUM trajectory, COLMAP images.txt, or the camera nodes of a .gltf or .glb; several make a "
+      "sequence");
+  const char* time = "Animation and sequences";
+  add(time, "--time", "SECONDS", options->view.time, "Of the scene's animation");
+  add(time, "--animation", "NAME", options->view.animation, "Which of the scene's animations, default the first");
+  add(time, "--frames", "N", options->view.frames, "Render N pictures over time, from --time on");
+  add(time, "--fps", "F", options->view.fps, "Pictures a second of animation, default 30");
+  command->add_flag("--overwrite", options->overwrite, "Render the frames of a sequence that are there already, too")
+      ->group(time);
+  add("Report", "--stats", "FILE", options->stats, "Write times, triangles, bytes and techniques as JSON");
+  command->footer(
+      channel_help() +
+      "Examples:\n"
+      "  omma render city --camera equidistant:fov_deg=180 --size 1024x1024 -o dome.png\n"
+      "  omma render city --camera cylinder:fov_deg=360 --from -3,20,2 --to 0,5,0 -o c.png -o c.exr:distance\n"
+      "  omma render robot.glb --camera equirectangular --frames 120 --fps 24 -o 'walk_%04d.jpg'\n"
+      "A sequence that was cut off goes on with its first missing frame.");
+  command->callback([options] { Job(*options).run(); });
+}
+
+}  // namespace omma::tool
