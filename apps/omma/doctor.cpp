@@ -118,7 +118,9 @@ void add_doctor(CLI::App& tool) {
   command->footer(
       "Lists the OpenGL devices, the one that is taken and its limits, and draws a small picture with each technique.\n"
       "Exit code 4 when something does not work. The environment variable OMMA_GL_DEBUG=print shows what the driver\n"
-      "says.");
+      "says.\n"
+      "Example:\n"
+      "  omma doctor");
   command->callback(run);
 }
 

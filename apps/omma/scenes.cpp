@@ -13,7 +13,8 @@ void add_scenes(CLI::App& tool) {
   command->footer(
       "A scene is written NAME:KEY=VALUE,KEY=VALUE or is the name of a file that assimp reads (glTF, OBJ, PLY, STL,\n"
       "Collada, FBX and more).\n"
-      "Example:\n"
+      "Examples:\n"
+      "  omma scenes\n"
       "  omma render city:blocks=20,seed=3 --camera equirectangular -o city.png");
   command->callback([] {
     for (const BuiltinScene& scene : builtin_scenes()) {

@@ -13,7 +13,8 @@ void add_techniques(CLI::App& tool) {
   command->footer(
       "Written NAME or NAME:VARIANT; the first variant is the default. An exact technique draws what 'raycast' draws,\n"
       "but for rounding at edges.\n"
-      "Example:\n"
+      "Examples:\n"
+      "  omma techniques\n"
       "  omma render city --camera equidistant:fov_deg=180 --technique raycast -o city.png");
   command->callback([] {
     for (const TechniqueInfo& technique : techniques()) {

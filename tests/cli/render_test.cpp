@@ -1,0 +1,116 @@
+// omma render: one picture, its channels, its statistics, its view.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "omma/base/file.h"
+#include "omma/image/read.h"
+#include "tests/cli/tool.h"
+
+namespace omma {
+namespace {
+
+class RenderCommand : public ToolTest {
+ protected:
+  std::vector<std::string> render(const std::vector<std::string>& more) const {
+    std::vector<std::string> words{"render", "facade", "--camera",  "equidistant:fov_deg=120",
+                                   "--size", "48x32",  "--samples", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+};
+
+TEST_F(RenderCommand, EveryChannelIsWritten) {
+  std::vector<std::string> outputs;
+  for (const ChannelInfo& info : channels()) {
+    outputs.insert(outputs.end(), {"-o", fmt::format("{0}.exr:{0}", info.name)});
+  }
+  const ToolResult result = run(render(outputs));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const ChannelInfo& info : channels()) {
+    SCOPED_TRACE(info.name);
+    const Image image = read_image(file(fmt::format("{}.exr", info.name)));
+    EXPECT_EQ(image_size(image), (ImageSize{48, 32}));
+    EXPECT_EQ(image_components(image), info.components);
+    EXPECT_EQ(std::holds_alternative<IntImage>(image), info.integer);
+    // Not one value everywhere: facades have textures, depth, and an edge.
+    std::visit(
+        [&](const auto& typed) {
+          const auto& values = typed.values;
+          EXPECT_TRUE(std::any_of(values.begin(), values.end(), [&](auto value) { return value != values[0]; }));
+        },
+        image);
+  }
+}
+
+TEST_F(RenderCommand, StatsHoldWhatItTook) {
+  ASSERT_EQ(run(render({"-o", "a.png", "--stats", "stats.json", "--technique", "raycast"})).exit_code, 0);
+  const auto json = nlohmann::json::parse(read_file(file("stats.json")));
+  EXPECT_EQ(json["scene"], "facade");
+  EXPECT_EQ(json["width"], 48);
+  EXPECT_EQ(json["samples"], 1);
+  EXPECT_GT(json["load_ms"], 0.0);
+  EXPECT_EQ(json["frames_skipped"], 0);
+  ASSERT_EQ(json["frames"].size(), 1u);
+  const auto& frame = json["frames"][0];
+  EXPECT_EQ(frame["files"][0], "a.png");
+  EXPECT_TRUE(frame["technique"].get<std::string>().starts_with("raycast"));
+  EXPECT_FALSE(frame["renderer"].get<std::string>().empty());
+  EXPECT_GT(frame["triangles"], 100);
+  EXPECT_GT(frame["triangles_drawn"], 0);
+  EXPECT_NEAR(frame["replication"].get<double>(),
+              frame["triangles_drawn"].get<double>() / frame["triangles"].get<double>(), 1e-9);
+  EXPECT_GT(frame["buffer_bytes"], 1000);
+  EXPECT_GE(frame["tiles"], 1);
+  EXPECT_GT(frame["render_ms"], 0.0);
+  EXPECT_FALSE(frame["stages_ms"].empty());
+}
+
+TEST_F(RenderCommand, ViewThatIsNotGivenIsSaid) {
+  const ToolResult result = run(render({"-o", "a.png"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("view: "), std::string::npos);
+  const ToolResult given = run(render({"-o", "b.png", "--from", "-3,1,20", "--to", "0,1,0"}));
+  ASSERT_EQ(given.exit_code, 0) << given.err;
+  EXPECT_EQ(given.err.find("view: "), std::string::npos);
+}
+
+TEST_F(RenderCommand, NegativeNumbersAreValues) {
+  ASSERT_EQ(run(render({"-o", "a.npy", "--from", "-3,1,20", "--to", "-.5,1,0"})).exit_code, 0);
+  ASSERT_EQ(run(render({"-o", "b.npy", "--from=-3,1,20", "--to=-0.5,1,0"})).exit_code, 0);
+  EXPECT_EQ(run({"compare", "a.npy", "b.npy", "--max-max", "0"}).exit_code, 0);
+  ASSERT_EQ(run(render({"-o", "c.npy", "--from", "3,1,20", "--to", "-.5,1,0"})).exit_code, 0);
+  EXPECT_EQ(run({"compare", "a.npy", "c.npy", "--max-max", "0"}).exit_code, 1);
+}
+
+TEST_F(RenderCommand, PoseFileIsTheSameAsFromAndTo) {
+  // A TUM pose holds the optical frame, half a turn about x from the camera's.
+  write("pose.txt", "# time x y z qx qy qz qw\n0 2 3 20 1 0 0 0\n");
+  ASSERT_EQ(run(render({"-o", "a.npy", "--pose", "pose.txt"})).exit_code, 0);
+  ASSERT_EQ(run(render({"-o", "b.npy", "--from", "2,3,20", "--to", "2,3,0"})).exit_code, 0);
+  EXPECT_EQ(run({"compare", "a.npy", "b.npy", "--max-mean", "0.001"}).exit_code, 0);
+}
+
+TEST_F(RenderCommand, BrokenPoseFilesAreRefused) {
+  expect_refusal(render({"-o", "a.png", "--pose", "missing.txt"}), 3, {"missing.txt", "no such file"});
+  write("pose.txt", "");
+  expect_refusal(render({"-o", "a.png", "--pose", "pose.txt"}), 3, {"pose.txt"});
+  write("pose.txt", "0 0 0 0 0 0 0 1\n1 0 0 zero 0 0 0 1\n");
+  expect_refusal(render({"-o", "a_%d.png", "--pose", "pose.txt"}), 3, {"pose.txt:2"});
+  write("pose.glb", "garbage");
+  expect_refusal(render({"-o", "a.png", "--pose", "pose.glb"}), 3, {"pose.glb"});
+}
+
+TEST_F(RenderCommand, BackgroundIsTheColourAsked) {
+  ASSERT_EQ(
+      run(render({"-o", "a.npy", "--background", "0.25,0.5,2", "--from", "0,500,0", "--to", "0,900,1"})).exit_code, 0);
+  const FloatImage image = std::get<FloatImage>(read_image(file("a.npy")));
+  const float* middle = image.at(24, 16);
+  EXPECT_NEAR(middle[0], 0.25f, 1e-3);
+  EXPECT_NEAR(middle[1], 0.5f, 1e-3);
+  EXPECT_NEAR(middle[2], 2.0f, 1e-2);
+}
+
+}  // namespace
+}  // namespace omma
