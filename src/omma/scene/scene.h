@@ -68,7 +68,7 @@ struct MorphTarget {
 /// Triangles of one material. All per-vertex arrays have the same length; `tangents`, `uvs` and `colors` may be empty.
 struct Mesh {
   std::string name;
-  std::vector<glm::vec3> positions;  ///< metres, in the mesh's own frame
+  std::vector<glm::vec3> positions;  ///< metres, in the mesh's own frame; in the world's when it has a skin
   std::vector<glm::vec3> normals;    ///< unit length
   std::vector<glm::vec4> tangents;   ///< w is the bitangent's sign
   std::vector<glm::vec2> uvs;
@@ -81,6 +81,7 @@ struct Mesh {
   /// Positions and normals before skin and morph targets; empty for a mesh that never deforms.
   std::vector<glm::vec3> rest_positions;
   std::vector<glm::vec3> rest_normals;
+  std::vector<glm::vec4> rest_tangents;  ///< empty when `tangents` is
   bool deforms() const { return !rest_positions.empty(); }
 
   Bounds bounds() const;
@@ -97,7 +98,8 @@ struct Node {
   glm::dmat4 worldFromNode{1.0};  ///< of the scene's current time
 };
 
-/// A mesh at a node. Instances of one node share an object number.
+/// A mesh at a node. Instances of one node share an object number. A skinned mesh stands where its joints are: its
+/// worldFromObject is the identity.
 struct Instance {
   int mesh = 0;
   int node = 0;
@@ -106,20 +108,21 @@ struct Instance {
   glm::dmat4 worldFromObject{1.0};
 };
 
+/// A light with a node sits at that node's origin and shines along its -Z.
 struct Light {
   enum class Kind { sun, point, spot };
   Kind kind = Kind::sun;
   std::string name;
-  int node = -1;  ///< it moves with this node, or -1
-  glm::dvec3 position{0.0};            ///< world metres, of the current time; not for suns
+  int node = -1;                         ///< it moves with this node, or -1
+  glm::dvec3 position{0.0};              ///< world metres, of the current time; not for suns
   glm::dvec3 direction{0.0, -1.0, 0.0};  ///< world, the way the light travels; not for points
-  glm::vec3 color{1.0f};               ///< linear; suns: irradiance; points and spots: radiant intensity (over distance²)
-  float range = 0.0f;                  ///< metres beyond which it gives no light; 0: no limit
-  float inner_angle = 0.0f;            ///< spot, radians from its axis: full light inside
-  float outer_angle = 0.785398f;       ///< spot, radians from its axis: no light outside
+  glm::vec3 color{1.0f};          ///< linear; suns: irradiance; points and spots: radiant intensity (over distance²)
+  float range = 0.0f;             ///< metres beyond which it gives no light; 0: no limit
+  float inner_angle = 0.0f;       ///< spot, radians from its axis: full light inside
+  float outer_angle = 0.785398f;  ///< spot, radians from its axis: no light outside
 };
 
-/// A camera that a file brings along: only its pose and field of view, the lens is the user's choice.
+/// A camera that a file brings along: only its pose, that of its node without scale; the lens is the user's choice.
 struct SceneCamera {
   std::string name;
   int node = -1;
@@ -165,7 +168,8 @@ struct Scene {
   std::vector<SceneCamera> cameras;
   std::vector<Animation> animations;
 
-  /// A place to stand when neither the user nor the file names one.
+  /// A place to stand when neither the user nor the file names one. For a file: looking at the centre of its bounds
+  /// from the front, to the right and above, 1.3 times the bounds' diagonal away.
   glm::dvec3 default_from{0.0, 0.0, 5.0};
   glm::dvec3 default_to{0.0};
 
@@ -173,18 +177,26 @@ struct Scene {
   Bounds bounds() const;          ///< world, over all instances
 };
 
+/// For whoever builds a scene by hand: numbers the triangles through all instances, keeps the rest pose of meshes that
+/// deform, and moves everything to time 0. Objects are the caller's to number.
+void finish_scene(Scene& scene);
+
 /// Moves nodes, instances, lights and cameras to `seconds` of the scene's animation (by default its first; names from
 /// Scene::animations) and deforms skinned and morphed meshes. The time wraps around at the animation's end. A scene
-/// without animation ignores the time. Throws CommandError when there is no animation of that name.
+/// without animation ignores the time. Throws CommandError when there is no animation of that name or the time is not
+/// finite.
 void set_time(Scene& scene, double seconds, std::string_view animation = {});
 
 /// The scene of a text: a built-in (`city`, `city:blocks=54,seed=1`; see `builtin_scenes()`) or a file that assimp
-/// reads. A file in the current folder wins over a built-in only when it has an extension.
+/// reads. A text with an extension or a `/` is a file.
 /// Throws CommandError for a name or parameter, InputError for a file; warns of what it repaired.
 Scene load_scene(std::string_view text);
 
+/// glTF and GLB, OBJ, PLY, STL, Collada, FBX and whatever else assimp knows. Throws InputError for a file without a
+/// triangle that can be drawn; warns, once a file, of triangles and textures that cannot.
 Scene load_scene_file(const std::filesystem::path& path);
 
+/// A whole number.
 struct BuiltinParameter {
   const char* name;
   double default_value, min, max;
