@@ -31,4 +31,4 @@ run(${CMAKE_COMMAND} --build ${WORK}/example)
 
 run(${WORK}/example/minimal room ${WORK}/example.png)
 run(${WORK}/moved/bin/omma render room --camera equidistant:fov_deg=180 --size 512x512 -o ${WORK}/tool.png)
-run(${WORK}/moved/bin/omma compare ${WORK}/example.png ${WORK}/tool.png --max-difference 0)
+run(${WORK}/moved/bin/omma compare ${WORK}/example.png ${WORK}/tool.png --max-max 0)
