@@ -27,6 +27,7 @@ struct Lens {
   glm::dvec2 focal{1.0};   ///< pixels per unit of the model's plane
   glm::dvec2 centre{0.0};  ///< principal point, pixels from the top-left corner
   LensParameters parameters;
+  friend bool operator==(const Lens&, const Lens&) = default;
 
   /// Pixel of a direction (any length) in the camera frame. Nothing when the lens does not see it.
   std::optional<glm::dvec2> project(const glm::dvec3& direction) const;
@@ -63,6 +64,9 @@ class Camera {
   /// Pixels per radian around the image's centre, or the ray nearest to it, along the axis where they are denser: what
   /// other images are matched to. 0 when no pixel has a ray.
   double pixels_per_radian() const;
+
+  /// Ray maps are equal when they are the same one.
+  friend bool operator==(const Camera&, const Camera&) = default;
 
  private:
   std::variant<Lens, std::shared_ptr<const RayMap>> form_;

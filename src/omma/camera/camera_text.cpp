@@ -102,7 +102,7 @@ class LensText {
     if (found == std::end(fit_names)) {
       std::vector<std::string> choices;
       for (const FitName& choice : fit_names) choices.emplace_back(choice.name);
-      throw CommandError("{}", unknown_name(label("fit"), value("fit"), choices));
+      throw CommandError("{}: {}", spec_.name, unknown_name("fit", value("fit"), choices));
     }
     if (found->fit == Fit::diagonal && !info.radial) {
       throw CommandError(

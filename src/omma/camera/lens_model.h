@@ -16,6 +16,7 @@ struct LensParameters {
   static constexpr int max_count = 16;
   std::array<double, max_count> k{};
   double max_angle = 0.0;  ///< radians from the axis beyond which the camera sees nothing
+  friend bool operator==(const LensParameters&, const LensParameters&) = default;
 };
 
 /// Which extent of the image a field of view spans.

@@ -6,9 +6,10 @@
 
 namespace omma {
 
-/// The directions at the centres of the pixels of `region`, which may reach beyond the image: a lens has rays there
-/// too, a ray map has none. In the camera frame, zero where there is no ray. Runs on all cores.
-RayMap rays_of(const Camera& camera, const PixelRect& region);
+/// The directions at the centres of the pixels of `region`, or `shift` pixels away from them. The region may reach
+/// beyond the image: a lens has rays there too, a ray map has none. In the camera frame, zero where there is no ray.
+/// Runs on all cores.
+RayMap rays_of(const Camera& camera, const PixelRect& region, const glm::dvec2& shift = glm::dvec2(0.0));
 
 /// Those of the whole image.
 RayMap rays_of(const Camera& camera);
