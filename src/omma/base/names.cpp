@@ -4,22 +4,25 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "omma/base/error.h"
 
 namespace omma {
 namespace {
 
+/// Insertions, deletions, substitutions and swaps of neighbours (optimal string alignment).
 size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
+  std::vector<size_t> row(b.size() + 1), above, two_above;
   std::iota(row.begin(), row.end(), size_t{0});
   for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
+    two_above = std::exchange(above, row);
     row[0] = i;
     for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({substitution, row[j] + 1, row[j - 1] + 1});
+      const size_t substitution = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({substitution, above[j] + 1, row[j - 1] + 1});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], two_above[j - 2] + 1);
     }
   }
   return row[b.size()];
@@ -36,8 +39,7 @@ std::optional<T> parse_whole(std::string_view text) {
 
 }  // namespace
 
-std::optional<std::string> nearest_name(std::string_view name,
-                                        std::span<const std::string> choices) {
+std::optional<std::string> nearest_name(std::string_view name, std::span<const std::string> choices) {
   std::optional<std::string> best;
   size_t best_distance = 1 + std::max<size_t>(1, name.size() / 3);
   for (const std::string& choice : choices) {
@@ -50,8 +52,7 @@ std::optional<std::string> nearest_name(std::string_view name,
   return best;
 }
 
-std::string unknown_name(std::string_view what, std::string_view name,
-                         std::span<const std::string> choices) {
+std::string unknown_name(std::string_view what, std::string_view name, std::span<const std::string> choices) {
   std::string message = fmt::format("unknown {} '{}'", what, name);
   if (const auto nearest = nearest_name(name, choices)) {
     message += fmt::format("; did you mean '{}'?", *nearest);

@@ -22,15 +22,15 @@ struct RenderOptions {
   std::string technique = "auto";  ///< `name` or `name:variant`, see techniques()
   int samples = 4;                 ///< colour samples per pixel, 1 to 1024
   Filter filter = Filter::anisotropic;
-  int face_size = 0;               ///< image-based: texels along a cube face, 0: the camera's density at its centre
-  int tile = 0;                    ///< largest tile's side in pixels, 0: what the driver allows
+  int face_size = 0;  ///< image-based: texels along a cube face, 0: the camera's density at its centre
+  int tile = 0;       ///< largest tile's side in pixels, 0: what the driver allows
   std::optional<glm::vec3> background;  ///< linear RGB where a ray meets nothing; nothing: a sky
 };
 
 /// What a picture took. Times are milliseconds, GPU stages by timer queries.
 struct RenderStats {
-  std::string technique;  ///< the one that drew, `name:variant`
-  std::string renderer;   ///< the GL renderer
+  std::string technique;       ///< the one that drew, `name:variant`
+  std::string renderer;        ///< the GL renderer
   size_t triangles = 0;        ///< in the scene
   size_t triangles_drawn = 0;  ///< rasterized or traced against, over all passes
   size_t buffer_bytes = 0;     ///< on the GPU: geometry, textures, targets
@@ -47,8 +47,8 @@ struct VariantInfo {
 struct TechniqueInfo {
   std::string name;
   std::string description;
-  bool exact;           ///< equal to `raycast` but for rounding at edges
-  bool needs_project;   ///< cannot draw a ray map
+  bool exact;                         ///< equal to `raycast` but for rounding at edges
+  bool needs_project;                 ///< cannot draw a ray map
   std::vector<VariantInfo> variants;  ///< the first is the default; empty: none
 };
 

@@ -1,0 +1,83 @@
+// The camera as the GPU sees it: a lens's formulae or a map of measured rays. Camera frame: +X right, +Y up, -Z ahead.
+// Pixels are those of the whole image, y down; a target's row 0 is the top row of its tile, so that
+// gl_FragCoord.xy + pixel_offset is a pixel without any flip.
+
+#include "models/language.h"
+
+uniform vec2 pixel_offset;  // the tile's corner and the sub-pixel shift of this pass
+
+#ifdef RAY_MAP
+
+layout(binding = 8) uniform sampler2D ray_map;  // xyz; zero where there is no ray
+
+bool camera_unproject(vec2 pixel, out vec3 direction) {
+  // Bilinear by hand: a neighbour without a ray must not pull the others towards zero.
+  ivec2 last = textureSize(ray_map, 0) - 1;
+  vec2 corner = pixel - 0.5;
+  ivec2 at = clamp(ivec2(floor(corner)), ivec2(0), last);
+  vec2 part = clamp(corner - vec2(at), 0.0, 1.0);
+  ivec2 next = min(at + 1, last);
+  vec3 r00 = texelFetch(ray_map, at, 0).xyz;
+  vec3 r10 = texelFetch(ray_map, ivec2(next.x, at.y), 0).xyz;
+  vec3 r01 = texelFetch(ray_map, ivec2(at.x, next.y), 0).xyz;
+  vec3 r11 = texelFetch(ray_map, next, 0).xyz;
+  vec4 weight = vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);
+  direction = weight.x * r00 + weight.y * r10 + weight.z * r01 + weight.w * r11;
+  bool valid = (weight.x == 0.0 || r00 != vec3(0.0)) && (weight.y == 0.0 || r10 != vec3(0.0)) &&
+               (weight.z == 0.0 || r01 != vec3(0.0)) && (weight.w == 0.0 || r11 != vec3(0.0));
+  direction = valid ? normalize(direction) : vec3(0.0, 0.0, -1.0);
+  return valid;
+}
+
+#else
+
+#include "models/radial.h"
+#include "models/${LENS}.h"
+
+uniform float lens_k[16];
+uniform float lens_max_angle;
+uniform vec2 lens_focal;
+uniform vec2 lens_centre;
+
+Params lens_params() {
+  return Params(lens_k, lens_max_angle);
+}
+
+bool camera_unproject(vec2 pixel, out vec3 direction) {
+  vec3 optical;
+  bool valid = LENS_UNPROJECT(lens_params(), (pixel - lens_centre) / lens_focal, optical);
+  direction = vec3(optical.x, -optical.y, -optical.z);
+  return valid;
+}
+
+bool camera_project(vec3 direction, out vec2 pixel) {
+  vec2 plane;
+  bool valid = LENS_PROJECT(lens_params(), vec3(direction.x, -direction.y, -direction.z), plane);
+  pixel = lens_centre + lens_focal * plane;
+  return valid;
+}
+
+#endif
+
+// A pixel's ray and how it changes from pixel to pixel.
+struct PixelRay {
+  bool valid;
+  vec3 direction;  // unit length
+  vec3 dx, dy;     // per pixel to the right and down
+};
+
+// Central differences over one pixel; at the border of the image circle the side that exists.
+PixelRay camera_ray(vec2 pixel) {
+  PixelRay ray;
+  ray.valid = camera_unproject(pixel, ray.direction);
+  vec3 left, right, up, down;
+  bool has_left = camera_unproject(pixel - vec2(0.5, 0.0), left);
+  bool has_right = camera_unproject(pixel + vec2(0.5, 0.0), right);
+  bool has_up = camera_unproject(pixel - vec2(0.0, 0.5), up);
+  bool has_down = camera_unproject(pixel + vec2(0.0, 0.5), down);
+  ray.dx = (has_right ? right : ray.direction) - (has_left ? left : ray.direction);
+  ray.dy = (has_down ? down : ray.direction) - (has_up ? up : ray.direction);
+  if (has_left != has_right) ray.dx *= 2.0;
+  if (has_up != has_down) ray.dy *= 2.0;
+  return ray;
+}

@@ -1,0 +1,30 @@
+// What holds for a whole frame. Matches FrameBlock and LightRecord in technique/gpu_scene.cpp.
+
+struct LightRecord {
+  vec4 position;   // camera frame; w: range in metres, 0 none
+  vec4 direction;  // camera frame, the way the light travels; w: 0 sun, 1 point, 2 spot
+  vec4 color;      // suns: irradiance; others: radiant intensity
+  vec4 cone;       // cosines of the spot's inner and outer angle
+};
+
+layout(std140, binding = 0) uniform FrameBlock {
+  mat4 worldFromCamera;
+  vec4 ambient;     // linear radiance from everywhere
+  vec4 background;  // linear; w is 0 for a sky
+  uvec4 counts;     // x: lights
+} frame;
+
+layout(std430, binding = 1) readonly buffer LightBlock { LightRecord lights[]; };
+
+vec3 sky(vec3 world_direction) {
+  float height = world_direction.y;
+  vec3 horizon = vec3(0.72, 0.80, 0.88);
+  vec3 above = mix(horizon, vec3(0.16, 0.34, 0.66), pow(max(height, 0.0), 0.55));
+  vec3 below = mix(horizon * 0.8, vec3(0.20, 0.19, 0.18), min(1.0, -4.0 * height));
+  return height > 0.0 ? above : below;
+}
+
+// Radiance of a ray that meets nothing.
+vec3 background(vec3 direction) {
+  return frame.background.w > 0.0 ? frame.background.rgb : sky(mat3(frame.worldFromCamera) * direction);
+}

@@ -1,0 +1,57 @@
+// A visible triangle's number and a ray as a Surface. With a, b, c the vertices relative to the camera and d the ray:
+// n0 = b x c and so on are the edge planes, ni.d / sum nj.d the barycentric coordinates, det(a,b,c) / sum nj.d the
+// distance, and the quotient rule gives their derivatives (docs/architecture.md, "One idea").
+#include "technique/visible.glsl"
+#include "common/camera.glsl"
+#include "shading/output.glsl"
+
+layout(binding = 5) uniform samplerBuffer positions;
+layout(binding = 6) uniform usamplerBuffer attributes;
+layout(binding = 7) uniform samplerBuffer colors;
+layout(binding = 9) uniform usamplerBuffer triangles;
+
+void main() {
+  uvec2 hit = texelFetch(visible, ivec2(gl_FragCoord.xy), 0).xy;
+  InstanceRecord instance = instances[hit.y];
+  uvec3 corner = texelFetch(triangles, int(instance.numbers.y + hit.x - instance.numbers.x)).xyz;
+  vec3 a = to_camera(instance, texelFetch(positions, int(corner.x)).xyz);
+  vec3 b = to_camera(instance, texelFetch(positions, int(corner.y)).xyz);
+  vec3 c = to_camera(instance, texelFetch(positions, int(corner.z)).xyz);
+  mat3 planes = mat3(cross(b, c), cross(c, a), cross(a, b));
+
+  PixelRay ray = camera_ray(gl_FragCoord.xy + pixel_offset);
+  vec3 inside = ray.direction * planes;
+  float sum = inside.x + inside.y + inside.z;
+  vec3 weight = inside / sum;
+  vec3 inside_dx = ray.dx * planes, inside_dy = ray.dy * planes;
+  vec3 weight_dx = (inside_dx - weight * (inside_dx.x + inside_dx.y + inside_dx.z)) / sum;
+  vec3 weight_dy = (inside_dy - weight * (inside_dy.x + inside_dy.y + inside_dy.z)) / sum;
+  float volume = dot(a, planes[0]);
+
+  uvec4 a_attributes = texelFetch(attributes, int(corner.x));
+  uvec4 b_attributes = texelFetch(attributes, int(corner.y));
+  uvec4 c_attributes = texelFetch(attributes, int(corner.z));
+  mat3x2 uvs = mat3x2(vertex_uv(a_attributes), vertex_uv(b_attributes), vertex_uv(c_attributes));
+  vec3 normal = mat3(vertex_normal(a_attributes), vertex_normal(b_attributes), vertex_normal(c_attributes)) * weight;
+
+  Surface surface;
+  surface.position = ray.direction * (volume / sum);
+  bool front = (volume < 0.0) != is_mirrored(instance);
+  surface.normal = normalize(normal_to_camera(instance, front ? normal : -normal));
+#ifdef NORMAL_TEXTURE
+  vec4 tangent = vertex_tangent(a_attributes) * weight.x + vertex_tangent(b_attributes) * weight.y +
+                 vertex_tangent(c_attributes) * weight.z;
+  surface.tangent = vec4(direction_to_camera(instance, tangent.xyz), tangent.w < 0.0 ? -1.0 : 1.0);
+#else
+  surface.tangent = vec4(0.0);
+#endif
+  surface.uv = uvs * weight;
+  surface.uv_dx = uvs * weight_dx;
+  surface.uv_dy = uvs * weight_dy;
+  surface.color = texelFetch(colors, int(corner.x)) * weight.x + texelFetch(colors, int(corner.y)) * weight.y +
+                  texelFetch(colors, int(corner.z)) * weight.z;
+  surface.triangle = int(hit.x);
+  surface.object = int(instance.numbers.w);
+  surface.material = int(instance.numbers.z);
+  write_outputs(surface);
+}

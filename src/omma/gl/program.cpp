@@ -1,0 +1,112 @@
+#include "omma/gl/program.h"
+
+#include <algorithm>
+#include <regex>
+
+#include "omma/base/error.h"
+#include "omma/gl/shader_files.h"
+
+namespace omma::gl {
+namespace {
+
+/// Replaces every `${NAME}`.
+std::string substitute(std::string text, const Defines& defines) {
+  for (const auto& [name, value] : defines) {
+    const std::string pattern = "${" + name + "}";
+    for (size_t at; (at = text.find(pattern)) != std::string::npos;) text.replace(at, pattern.size(), value);
+  }
+  return text;
+}
+
+void append_file(const std::string& name, const Defines& defines, std::vector<std::string>& files, std::string& out) {
+  if (std::find(files.begin(), files.end(), name) != files.end()) return;
+  const auto found = shader_files().find(name);
+  if (found == shader_files().end()) throw MachineError("shader file '{}' is not built in", name);
+  const size_t number = files.size();
+  files.push_back(name);
+  out += fmt::format("#line 1 {}\n", number);
+
+  std::string_view text = found->second;
+  for (int line = 1; !text.empty(); ++line) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view row = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    constexpr std::string_view include = "#include \"";
+    if (!row.starts_with(include)) {
+      out.append(row).push_back('\n');
+      continue;
+    }
+    const std::string_view path = row.substr(include.size(), row.rfind('"') - include.size());
+    append_file(substitute(std::string(path), defines), defines, files, out);
+    out += fmt::format("#line {} {}\n", line + 1, number);
+  }
+}
+
+/// Drivers name a source by its number, `0:12(5):` or `0(12) :`; people want its file.
+std::string name_files(const std::string& log, const std::vector<std::string>& files) {
+  static const std::regex position(R"((^|\n)(?:ERROR: )?(\d+)[:(](\d+))");
+  std::string result;
+  auto rest = log.cbegin();
+  for (std::sregex_iterator match(log.begin(), log.end(), position), end; match != end; ++match) {
+    result.append(rest, (*match)[0].first);
+    const size_t number = std::stoul((*match)[2]);
+    result += (*match)[1].str() + (number < files.size() ? files[number] : (*match)[2].str()) + ":" + (*match)[3].str();
+    rest = (*match)[0].second;
+  }
+  return result.append(rest, log.cend());
+}
+
+struct ShaderTraits {
+  static void destroy(GLuint id) { glDeleteShader(id); }
+};
+using Shader = Object<ShaderTraits>;
+
+Shader compile(const Stage& stage, const Defines& defines) {
+  std::vector<std::string> files;
+  const std::string text = assemble_shader(stage.file, defines, &files);
+  Shader shader(glCreateShader(stage.kind));
+  const char* source = text.c_str();
+  glShaderSource(shader.id(), 1, &source, nullptr);
+  glCompileShader(shader.id());
+  GLint compiled = 0;
+  glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+  if (!compiled) {
+    std::string log(16384, '\0');
+    GLsizei length = 0;
+    glGetShaderInfoLog(shader.id(), GLsizei(log.size()), &length, log.data());
+    log.resize(size_t(length));
+    throw MachineError("{} does not compile on this driver:\n{}", stage.file, name_files(log, files));
+  }
+  return shader;
+}
+
+}  // namespace
+
+std::string assemble_shader(std::string_view file, const Defines& defines, std::vector<std::string>* files) {
+  std::string text = "#version 450 core\n";
+  for (const auto& [name, value] : defines) text += fmt::format("#define {} {}\n", name, value);
+  std::vector<std::string> local;
+  append_file(std::string(file), defines, files != nullptr ? *files : local, text);
+  return text;
+}
+
+Program::Program(const std::vector<Stage>& stages, const Defines& defines) : object_(glCreateProgram()) {
+  std::vector<Shader> shaders;
+  for (const Stage& stage : stages) {
+    shaders.push_back(compile(stage, defines));
+    glAttachShader(id(), shaders.back().id());
+  }
+  glLinkProgram(id());
+  GLint linked = 0;
+  glGetProgramiv(id(), GL_LINK_STATUS, &linked);
+  if (!linked) {
+    std::string log(16384, '\0');
+    GLsizei length = 0;
+    glGetProgramInfoLog(id(), GLsizei(log.size()), &length, log.data());
+    log.resize(size_t(length));
+    throw MachineError("{} does not link on this driver:\n{}", stages.back().file, log);
+  }
+  for (const Shader& shader : shaders) glDetachShader(id(), shader.id());
+}
+
+}  // namespace omma::gl

@@ -1,0 +1,34 @@
+#include "omma/technique/technique.h"
+
+namespace omma {
+
+void DrawTools::draw_fullscreen(const gl::Program& program) {
+  program.use();
+  glBindVertexArray(no_vertices.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void DrawTools::multisampled(const View& view, const Target& target, const std::function<void(const Target&)>& draw) {
+  if (view.samples <= 1) return draw(target);
+  if (!multisample_target.fits(view.size(), view.outputs, view.samples)) {
+    multisample_target = Target(view.size(), view.outputs, view.samples);
+  }
+  draw(multisample_target);
+  multisample_target.resolve_color(target);
+}
+
+void DrawTools::draw_background(const View& view) {
+  scene.bind();
+  ray_map.bind(view.camera);
+  gl::Defines defines = camera_defines(view.camera);
+  if (!view.labels()) defines["OUTPUT_COLOR"] = "0";
+  const gl::Program& program = programs.get(
+      {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "common/background.frag"}}, defines);
+  set_camera(program, view);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  draw_fullscreen(program);
+  glDisable(GL_DEPTH_TEST);
+}
+
+}  // namespace omma

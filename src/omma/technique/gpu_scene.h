@@ -1,0 +1,72 @@
+// A scene on the GPU: packed vertices, instances relative to the camera, lights, materials.
+//
+// Everything is drawn in the camera frame: transforms are multiplied in double precision and only then rounded, so a
+// scene may lie a million metres from the world's origin, and a triangle's vertices are already relative to the centre
+// of projection, as homogeneous rasterization wants them.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "omma/gl/context.h"
+#include "omma/gl/objects.h"
+#include "omma/scene/scene.h"
+#include "omma/shading/materials.h"
+
+namespace omma {
+
+/// At most part_triangles consecutive triangles of one instance: the unit of culling and of drawing.
+struct Part {
+  int instance = 0;
+  int material = 0;
+  bool mirrored = false;     ///< the transform turns the winding round
+  uint32_t first_index = 0;  ///< into the index buffer
+  uint32_t index_count = 0;
+  uint32_t first_triangle = 0;  ///< id of its first triangle
+  Bounds bounds;                ///< world
+};
+
+inline constexpr uint32_t part_triangles = 1024;
+
+class GpuScene {
+ public:
+  GpuScene(const Scene& scene, const gl::Context& context);
+
+  /// Takes over transforms, lights and deformed vertices from the scene.
+  void update();
+  /// Makes everything relative to a camera's pose. `background`: linear RGB, nothing for a sky.
+  void set_view(const glm::dmat4& worldFromCamera, const std::optional<glm::vec3>& background);
+  /// Binds uniform block 0 and storage blocks 0 and 1.
+  void bind() const;
+  /// Binds the vertices as buffer textures for whoever fetches them by number (units 5, 6, 7, 9).
+  void bind_vertex_textures() const;
+
+  const Scene& scene() const { return *scene_; }
+  const std::vector<Part>& parts() const { return parts_; }
+  const Materials& materials() const { return materials_; }
+  const gl::VertexArray& vertex_array() const { return vertex_array_; }
+  const gl::Buffer& indices() const { return indices_; }
+  /// Of a mesh, in the common vertex buffers.
+  uint32_t first_vertex(size_t mesh) const { return first_vertex_[mesh]; }
+  const glm::dmat4& worldFromCamera() const { return worldFromCamera_; }
+  bool has_blending() const { return has_blending_; }
+  size_t bytes() const;
+
+ private:
+  void upload_vertices(size_t mesh);
+  void place_parts();
+
+  const Scene* scene_;
+  Materials materials_;
+  std::vector<Part> parts_;
+  std::vector<uint32_t> first_vertex_, first_index_;  ///< per mesh, in the common buffers
+  gl::Buffer positions_, attributes_, colors_, indices_, part_records_, instances_, frame_, lights_;
+  gl::Texture position_texels_, attribute_texels_, color_texels_, triangle_texels_;
+  gl::VertexArray vertex_array_;
+  glm::dmat4 worldFromCamera_{1.0};
+  bool has_blending_ = false;
+};
+
+}  // namespace omma

@@ -1,0 +1,43 @@
+// Drawing the scene's triangles with the rasterizer: culling, grouping by material, blending in order. Techniques say
+// with which stages, and where things land.
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "omma/gl/program.h"
+#include "omma/technique/camera_program.h"
+#include "omma/technique/gpu_scene.h"
+#include "omma/technique/view.h"
+
+namespace omma {
+
+struct MeshPass {
+  std::vector<gl::Stage> stages;  ///< all but the fragment shader, which is technique/mesh.frag
+  gl::Defines defines;
+  std::function<void(const gl::Program&)> set_uniforms;  ///< called once for each program
+  std::function<bool(const Bounds& world)> may_be_seen;  ///< whole parts that answer false are left out
+};
+
+class MeshDrawer {
+ public:
+  MeshDrawer(const GpuScene& scene, ProgramCache& programs) : scene_(&scene), programs_(&programs) {}
+
+  /// Draws into the bound framebuffer: opaque and masked materials first, then, for colour, blended ones from back to
+  /// front by their triangles' centroids.
+  void draw(const MeshPass& pass, const View& view);
+
+ private:
+  void draw_solid(const MeshPass& pass, const View& view);
+  void draw_blended(const MeshPass& pass, const View& view);
+  void use(const MeshPass& pass, const View& view, int material, bool mirrored);
+
+  const GpuScene* scene_;
+  ProgramCache* programs_;
+};
+
+/// False when a box lies wholly beyond one side of the clip volume (its near and far planes apart).
+bool may_be_in_frustum(const glm::dmat4& clipFromWorld, const Bounds& world);
+
+}  // namespace omma

@@ -1,0 +1,74 @@
+#include "omma/technique/raycast/raycast.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "omma/camera/ray_bundle.h"
+#include "omma/technique/raycast/embree_scene.h"
+#include "omma/technique/resolve.h"
+
+namespace omma {
+namespace {
+
+class Raycast : public Technique {
+ public:
+  explicit Raycast(DrawTools& tools) : tools_(tools), trees_(tools.scene.scene()), resolver_(tools) {}
+  bool multisamples() const override { return false; }
+  void scene_changed() override { trees_.update(); }
+
+  void draw(const View& view, const Target& target) override {
+    tools_.timer.mark("trace");
+    const RayMap rays = rays_of(view.camera, view.tile, view.shift);
+    const std::span<const glm::vec3> at_centre;
+    std::vector<RayHit> hits(rays.directions.size());
+    trees_.set_view(view.worldFromCamera);
+    trees_.nearest(at_centre, rays.directions, rays.size.width, view.labels() ? Solid::labels : Solid::opaque, hits);
+    VisibleTriangles visible{rays.size, {}};
+    visible.hits.reserve(hits.size());
+    for (const RayHit& hit : hits) visible.hits.emplace_back(hit.triangle, hit.instance);
+
+    target.begin();
+    tools_.timer.mark("background");
+    tools_.draw_background(view);
+    tools_.timer.mark("resolve");
+    resolver_.draw(view, visible, false);
+    if (!view.labels() && trees_.has_blending()) {
+      tools_.timer.mark("blend");
+      draw_blended(view, trees_.blended(at_centre, rays.directions, hits));
+    }
+  }
+
+ private:
+  /// Layer by layer from the farthest. A pixel with fewer surfaces than its neighbour joins in at the nearer layers.
+  void draw_blended(const View& view, const std::vector<std::vector<RayHit>>& surfaces) {
+    size_t layers = 0;
+    for (const auto& along_ray : surfaces) layers = std::max(layers, along_ray.size());
+    VisibleTriangles visible{view.size(), std::vector<glm::uvec2>(surfaces.size())};
+    for (size_t layer = layers; layer-- > 0;) {
+      for (size_t i = 0; i < surfaces.size(); ++i) {
+        visible.hits[i] = layer < surfaces[i].size()
+                              ? glm::uvec2(surfaces[i][layer].triangle, surfaces[i][layer].instance)
+                              : glm::uvec2(VisibleTriangles::nothing);
+      }
+      resolver_.draw(view, visible, true);
+    }
+  }
+
+  DrawTools& tools_;
+  EmbreeScene trees_;
+  Resolver resolver_;
+};
+
+}  // namespace
+
+const TechniqueEntry raycast_technique{
+    {.name = "raycast",
+     .description = "Embree finds each pixel's triangle, a resolve pass shades it; exact for every camera",
+     .exact = true,
+     .needs_project = false,
+     .variants = {}},
+    [](DrawTools& tools, const std::string&) -> std::unique_ptr<Technique> {
+      return std::make_unique<Raycast>(tools);
+    }};
+
+}  // namespace omma

@@ -1,0 +1,77 @@
+#include "omma/technique/registry.h"
+
+#include <algorithm>
+
+#include "omma/base/error.h"
+#include "omma/base/names.h"
+#include "omma/technique/image_based/image_based.h"
+#include "omma/technique/planar/planar.h"
+#include "omma/technique/raycast/raycast.h"
+#include "omma/technique/vertex/vertex.h"
+
+namespace omma {
+namespace {
+
+const TechniqueEntry* const entries[] = {
+    &planar_technique,
+    &image_based_technique,
+    &vertex_technique,
+    &raycast_technique,
+};
+
+/// Throws CommandError for a name or variant that does not exist.
+ChosenTechnique find(std::string_view text) {
+  const size_t colon = text.find(':');
+  const std::string name(text.substr(0, colon));
+  std::vector<std::string> names{"auto"};
+  for (const TechniqueEntry* entry : entries) {
+    names.push_back(entry->info.name);
+    if (entry->info.name != name) continue;
+    std::vector<std::string> variants;
+    for (const VariantInfo& variant : entry->info.variants) variants.push_back(variant.name);
+    if (colon == std::string_view::npos) return {entry, variants.empty() ? "" : variants.front()};
+    const std::string variant(text.substr(colon + 1));
+    if (variants.empty()) throw CommandError("technique '{}' has no variants; leave ':{}' out", name, variant);
+    if (std::find(variants.begin(), variants.end(), variant) == variants.end()) {
+      throw CommandError("{}", unknown_name("variant of technique " + name, variant, variants));
+    }
+    return {entry, variant};
+  }
+  throw CommandError("{}", unknown_name("technique", name, names));
+}
+
+}  // namespace
+
+std::span<const TechniqueEntry* const> technique_entries() { return entries; }
+
+ChosenTechnique choose_technique(std::string_view text, const Camera& camera) {
+  if (text == "auto") {
+    // A flat camera is what GPUs are made for; every other gets the exact picture.
+    return find(planar_draws(camera) ? planar_technique.info.name : raycast_technique.info.name);
+  }
+  const ChosenTechnique chosen = find(text);
+  if (chosen.entry->info.needs_project && camera.lens() == nullptr) {
+    throw CommandError(
+        "technique '{}' projects vertices, and a ray map has no formula for that; use raycast or image-based",
+        chosen.name());
+  }
+  if (chosen.entry == &planar_technique && !planar_draws(camera)) {
+    throw CommandError("technique 'planar' draws the perspective camera only; use auto, raycast or image-based");
+  }
+  return chosen;
+}
+
+const std::vector<TechniqueInfo>& techniques() {
+  static const std::vector<TechniqueInfo> infos = [] {
+    std::vector<TechniqueInfo> list;
+    for (const TechniqueEntry* entry : entries) list.push_back(entry->info);
+    return list;
+  }();
+  return infos;
+}
+
+void check_technique(std::string_view technique) {
+  if (technique != "auto") find(technique);
+}
+
+}  // namespace omma

@@ -1,0 +1,24 @@
+// The only list of techniques.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "omma/technique/technique.h"
+
+namespace omma {
+
+std::span<const TechniqueEntry* const> technique_entries();
+
+struct ChosenTechnique {
+  const TechniqueEntry* entry;
+  std::string variant;  ///< empty when the technique has none
+  std::string name() const { return variant.empty() ? entry->info.name : entry->info.name + ":" + variant; }
+};
+
+/// The technique of a text, `auto` included. Throws CommandError with the nearest name, or when the technique cannot
+/// draw the camera.
+ChosenTechnique choose_technique(std::string_view text, const Camera& camera);
+
+}  // namespace omma

@@ -1,0 +1,63 @@
+// A way of drawing. Each has a folder of its own and one line in registry.cpp; none knows another.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "omma/gl/context.h"
+#include "omma/gl/timer.h"
+#include "omma/technique/camera_program.h"
+#include "omma/technique/gpu_scene.h"
+#include "omma/technique/target.h"
+#include "omma/technique/view.h"
+
+namespace omma {
+
+/// What every technique draws with.
+struct DrawTools {
+  const gl::Context& context;
+  const GpuScene& scene;
+  ProgramCache programs{};
+  RayMapTexture ray_map{};
+  gl::StageTimer timer{};
+  gl::VertexArray no_vertices = gl::create_vertex_array();
+
+  /// One triangle over the bound target with `program`.
+  void draw_fullscreen(const gl::Program& program);
+
+  /// Calls `draw` with `target`, or, where the view wants several samples, with a multisample image of the same kind
+  /// that is then averaged into `target`.
+  void multisampled(const View& view, const Target& target, const std::function<void(const Target&)>& draw);
+
+  /// What the camera sees where the scene is not, and depth that keeps triangles off pixels without a ray.
+  void draw_background(const View& view);
+
+  Target multisample_target{};
+};
+
+class Technique {
+ public:
+  virtual ~Technique() = default;
+
+  /// True when a colour pass may have as many samples per pixel as the driver has; false when it has one.
+  virtual bool multisamples() const = 0;
+
+  /// Draws into a target that holds view.outputs, is of the view's size and has one sample. Marks its stages in
+  /// tools.timer.
+  virtual void draw(const View& view, const Target& target) = 0;
+
+  /// The scene has changed: what was derived from it must be derived again.
+  virtual void scene_changed() {}
+
+  /// On the GPU or beside it, beyond the scene and the target.
+  virtual size_t buffer_bytes() const { return 0; }
+};
+
+struct TechniqueEntry {
+  TechniqueInfo info;
+  /// Throws CommandError or MachineError when this camera or this driver will not do.
+  std::unique_ptr<Technique> (*make)(DrawTools& tools, const std::string& variant);
+};
+
+}  // namespace omma

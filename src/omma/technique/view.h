@@ -1,0 +1,31 @@
+// One pass over one tile of a picture: what a technique is asked to draw.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "omma/camera/camera.h"
+#include "omma/image/image.h"
+#include "omma/technique/renderer.h"
+
+namespace omma {
+
+struct View {
+  const Camera& camera;
+  glm::dmat4 worldFromCamera;
+  PixelRect tile;                      ///< of the camera's image
+  glm::dvec2 shift{0.0};               ///< where in its pixel this pass samples, from the centre, pixels
+  std::span<const Channel> outputs{};  ///< {color}, or channels other than color
+  int samples = 1;                     ///< per pixel in this pass, as far as the technique multisamples
+  Filter filter = Filter::anisotropic;
+  int face_size = 0;
+
+  bool labels() const { return outputs.front() != Channel::color; }
+  bool anisotropic() const { return filter == Filter::anisotropic; }
+  ImageSize size() const { return {tile.width(), tile.height()}; }
+  /// What is added to gl_FragCoord to get a pixel of the image.
+  glm::vec2 pixel_offset() const { return glm::dvec2(tile.x0, tile.y0) + shift; }
+};
+
+}  // namespace omma
