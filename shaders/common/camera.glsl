@@ -11,11 +11,12 @@ uniform vec2 pixel_offset;  // the tile's corner and the sub-pixel shift of this
 layout(binding = 8) uniform sampler2D ray_map;  // xyz; zero where there is no ray
 
 bool camera_unproject(vec2 pixel, out vec3 direction) {
-  // Bilinear by hand: a neighbour without a ray must not pull the others towards zero.
+  // Bilinear by hand: a neighbour without a ray must not pull the others towards zero. The outer half pixel goes on as
+  // the last two pixels began, so that derivatives hold up to the border.
   ivec2 last = textureSize(ray_map, 0) - 1;
   vec2 corner = pixel - 0.5;
-  ivec2 at = clamp(ivec2(floor(corner)), ivec2(0), last);
-  vec2 part = clamp(corner - vec2(at), 0.0, 1.0);
+  ivec2 at = clamp(ivec2(floor(corner)), ivec2(0), max(last - 1, 0));
+  vec2 part = vec2(last.x > 0 ? corner.x - float(at.x) : 0.0, last.y > 0 ? corner.y - float(at.y) : 0.0);
   ivec2 next = min(at + 1, last);
   vec3 r00 = texelFetch(ray_map, at, 0).xyz;
   vec3 r10 = texelFetch(ray_map, ivec2(next.x, at.y), 0).xyz;

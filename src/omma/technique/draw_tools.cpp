@@ -27,7 +27,11 @@ void DrawTools::draw_background(const View& view) {
   set_camera(program, view);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
+  // What a program leaves unwritten is undefined: for labels only the depth may change.
+  const GLboolean writes_color = view.labels() ? GL_FALSE : GL_TRUE;
+  glColorMask(writes_color, writes_color, writes_color, writes_color);
   draw_fullscreen(program);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_DEPTH_TEST);
 }
 
