@@ -71,7 +71,7 @@ void print_context(const gl::Context& context) {
 
 /// Draws a small picture and says how that went. Returns whether there is one.
 bool try_technique(Renderer& renderer, const Scene& scene, const std::string& technique) {
-  const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{64, 64});
+  const Camera camera = make_camera("perspective:fov_deg=90", ImageSize{64, 64});
   const glm::dmat4 worldFromCamera = look_at_worldFromCamera(scene.default_from, scene.default_to);
   const Channel channels[] = {Channel::color};
   RenderOptions options;

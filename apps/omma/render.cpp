@@ -13,6 +13,7 @@
 #include "omma/base/file.h"
 #include "omma/base/names.h"
 #include "omma/image/write.h"
+#include "omma/technique/registry.h"
 #include "omma/technique/renderer.h"
 #include "outputs.h"
 #include "progress.h"
@@ -59,7 +60,6 @@ std::optional<glm::vec3> background_of(const std::string& text) {
 RenderOptions render_options_of(const Options& options) {
   constexpr int most_samples = 1024;
   RenderOptions result;
-  check_technique(options.technique);
   result.technique = options.technique;
   if (options.samples) result.samples = count_of("--samples", *options.samples, 1, most_samples);
   if (options.filter) result.filter = filter_of(*options.filter);
@@ -83,7 +83,7 @@ class Job {
         overwrite_(options.overwrite) {
     if (stats_path_) require_writable(*stats_path_);
     require_patterns(options.view.pose.has_value());
-    require_project();
+    choose_technique(render_options_.technique, camera_);
     for (const Output& output : outputs_) {
       if (std::find(channels_.begin(), channels_.end(), output.channel) == channels_.end()) {
         channels_.push_back(output.channel);
@@ -125,17 +125,6 @@ class Job {
       if (!view_.is_sequence() && !has_pose_file && output.has_pattern()) {
         throw CommandError("-o {}: a numbered name is for sequences; add --frames, or --pose with a list of poses",
                            output.path);
-      }
-    }
-  }
-
-  void require_project() const {
-    if (camera_.lens()) return;
-    const std::string name = split(render_options_.technique, ':').front();
-    for (const TechniqueInfo& technique : techniques()) {
-      if (technique.name == name && technique.needs_project) {
-        throw CommandError("--technique {}: needs a camera that projects by a formula; '{}' is a ray map", name,
-                           camera_text_);
       }
     }
   }

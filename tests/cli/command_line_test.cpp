@@ -62,6 +62,13 @@ TEST_F(CommandLine, UnknownNamesAreRefusedWithTheNearest) {
   expect_refusal({"render", "facade:colums=3", "--camera", "equidistant", "-o", "a.png"}, 2, {"'colums'"});
 }
 
+TEST_F(CommandLine, TechniquesThatCannotDrawTheCameraAreRefused) {
+  ASSERT_EQ(run({"camera", "equidistant", "--size", "16x16", "--rays", "rays.npy"}).exit_code, 0);
+  expect_refusal({"render", "facade", "--camera", "rays.npy", "--technique", "vertex", "-o", "a.png"}, 2,
+                 {"vertex", "ray map"});
+  expect_refusal(render({"--technique", "planar", "-o", "a.png"}), 2, {"planar", "perspective"});
+}
+
 TEST_F(CommandLine, MissingAndSurplusWordsAreRefused) {
   expect_refusal({"render"}, 2, {"required"});
   expect_refusal({"render", "facade", "-o", "a.png"}, 2, {"--camera"});

@@ -17,7 +17,7 @@ const std::string two_triangles_obj =
     "f 1 2 3\nf 2 4 3\n";
 
 TEST_F(SceneFile, MissingEmptyAndGarbageAreRefused) {
-  expect_refusal(render("missing.glb"), 3, {"missing.glb", "no such file"});
+  expect_refusal(render("missing.glb"), 3, {"missing.glb", "does not exist"});
   std::filesystem::create_directory(file("folder.obj"));
   expect_refusal(render("folder.obj"), 3, {"folder.obj"});
   for (const char* name : {"a.obj", "a.glb", "a.gltf", "a.ply", "a.stl", "a.dae", "a.fbx"}) {

@@ -11,6 +11,7 @@ const std::vector<std::string> lenses{"perspective", "equidistant", "equisolid"}
 TEST(Names, NearestIsFoundAndFarIsNot) {
   EXPECT_EQ(nearest_name("equidistnat", lenses), "equidistant");
   EXPECT_EQ(nearest_name("equisold", lenses), "equisolid");
+  EXPECT_EQ(nearest_name("psrn", std::vector<std::string>{"ssim", "psnr"}), "psnr");
   EXPECT_EQ(nearest_name("cube", lenses), std::nullopt);
   EXPECT_EQ(nearest_name("", lenses), std::nullopt);
   EXPECT_EQ(nearest_name("x", {}), std::nullopt);
