@@ -15,11 +15,11 @@ picture() {
   name=$1
   camera=$2
   shift 2
-  ./dev render "$sponza" --camera "$camera" --from -9,2.2,-0.3 --to 4,3.2,-0.3 --samples 16 "$@" \
+  ./dev render "$sponza" --camera "$camera" --from -4.5,2.2,-0.3 --to 8,3.4,-0.3 --samples 16 "$@" \
     -o "docs/images/$name.png"
 }
 
-./dev render city --camera equidistant:fov_deg=180 --size 800x800 --samples 16 -o docs/images/city.png
+./dev render city --camera equidistant:fov_deg=180 -o docs/images/city.png
 
 picture perspective perspective:fov_deg=90 --size 480x480
 picture equidistant equidistant:fov_deg=180 --size 480x480
