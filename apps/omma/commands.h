@@ -18,5 +18,6 @@ void add_cameras(CLI::App& tool);
 void add_scenes(CLI::App& tool);
 void add_techniques(CLI::App& tool);
 void add_doctor(CLI::App& tool);
+void add_bench(CLI::App& tool);
 
 }  // namespace omma::tool

@@ -1,5 +1,7 @@
 // omma doctor: what this machine can do, and why not more.
+#include <OpenImageIO/oiioversion.h>
 #include <assimp/version.h>
+#include <embree3/rtcore_config.h>
 #include <fmt/format.h>
 #include <oneapi/tbb/version.h>
 #include <unistd.h>
@@ -43,6 +45,8 @@ void print_versions() {
   fmt::print("libraries\n");
   fmt::print("  omma            {}\n", OMMA_VERSION);
   fmt::print("  assimp          {}.{}.{}\n", aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch());
+  fmt::print("  Embree          {}\n", RTC_VERSION_STRING);
+  fmt::print("  OpenImageIO     {}\n", OIIO_VERSION_STRING);
   fmt::print("  oneTBB          {}\n", TBB_runtime_version());
 }
 

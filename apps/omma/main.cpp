@@ -66,5 +66,6 @@ int main(int argc, char** argv) {
   omma::tool::add_scenes(tool);
   omma::tool::add_techniques(tool);
   omma::tool::add_doctor(tool);
+  omma::tool::add_bench(tool);
   return run(tool, argc, argv);
 }

@@ -34,6 +34,12 @@ class Program {
   Program() = default;
   /// Throws MachineError with the compiler's or linker's words when the driver refuses.
   Program(const std::vector<Stage>& stages, const Defines& defines);
+  /// Takes over a program that somebody else linked.
+  static Program wrap(GLuint id) {
+    Program program;
+    program.object_ = Object<Traits>(id);
+    return program;
+  }
 
   GLuint id() const { return object_.id(); }
   void use() const { glUseProgram(id()); }

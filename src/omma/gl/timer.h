@@ -1,8 +1,9 @@
-// How long the GPU took for each stage of a frame.
+// How long each stage of a frame took.
 #pragma once
 
 #include <epoxy/gl.h>
 
+#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,31 +12,55 @@
 
 namespace omma::gl {
 
-/// Marks moments in the GPU's own time; the stage named at one mark lasts until the next.
+/// Milliseconds by name, in order of first mention.
+using StageTimes = std::vector<std::pair<std::string, double>>;
+
+/// Marks moments; the stage named at one mark lasts until the next. On a GPU the moments are those of its own clock. A
+/// software rasterizer puts work off until somebody waits for it, which makes its timestamps meaningless: there every
+/// mark waits and reads this machine's clock.
 class StageTimer {
  public:
-  /// Starts a stage; an empty name ends the last one.
+  explicit StageTimer(bool software) : software_(software) {}
+
   void mark(std::string name) {
-    marks_.emplace_back(std::move(name), create_query(GL_TIMESTAMP));
-    glQueryCounter(marks_.back().second.id(), GL_TIMESTAMP);
+    Mark mark{std::move(name), {}, {}};
+    if (software_) {
+      glFinish();
+      mark.time = std::chrono::steady_clock::now();
+    } else {
+      mark.query = create_query(GL_TIMESTAMP);
+      glQueryCounter(mark.query.id(), GL_TIMESTAMP);
+    }
+    marks_.push_back(std::move(mark));
   }
 
-  /// Waits for the GPU. Milliseconds of each stage, stages of one name added up, in order of their first mark.
-  std::vector<std::pair<std::string, double>> finish() {
+  /// Ends the last stage, waits, and starts anew. Stages of one name are added up.
+  StageTimes finish() {
     mark("");
-    std::vector<std::pair<std::string, double>> stages;
-    GLuint64 previous = 0;
-    for (size_t i = 0; i < marks_.size(); ++i) {
-      GLuint64 now = 0;
-      glGetQueryObjectui64v(marks_[i].second.id(), GL_QUERY_RESULT, &now);
-      if (i > 0 && !marks_[i - 1].first.empty()) add(stages, marks_[i - 1].first, double(now - previous) * 1e-6);
-      previous = now;
+    StageTimes stages;
+    for (size_t i = 0; i + 1 < marks_.size(); ++i) {
+      if (!marks_[i].name.empty()) add(stages, marks_[i].name, milliseconds(marks_[i], marks_[i + 1]));
     }
     marks_.clear();
     return stages;
   }
 
-  static void add(std::vector<std::pair<std::string, double>>& stages, const std::string& name, double ms) {
+ private:
+  struct Mark {
+    std::string name;
+    Query query;
+    std::chrono::steady_clock::time_point time;
+  };
+
+  double milliseconds(const Mark& begin, const Mark& end) const {
+    if (software_) return std::chrono::duration<double, std::milli>(end.time - begin.time).count();
+    GLuint64 first = 0, last = 0;
+    glGetQueryObjectui64v(begin.query.id(), GL_QUERY_RESULT, &first);
+    glGetQueryObjectui64v(end.query.id(), GL_QUERY_RESULT, &last);
+    return double(last - first) * 1e-6;
+  }
+
+  static void add(StageTimes& stages, const std::string& name, double ms) {
     for (auto& stage : stages) {
       if (stage.first == name) {
         stage.second += ms;
@@ -45,8 +70,8 @@ class StageTimer {
     stages.emplace_back(name, ms);
   }
 
- private:
-  std::vector<std::pair<std::string, Query>> marks_;
+  bool software_;
+  std::vector<Mark> marks_;
 };
 
 }  // namespace omma::gl

@@ -24,15 +24,15 @@ struct RenderOptions {
   Filter filter = Filter::anisotropic;
   int face_size = 0;  ///< image-based: texels along a cube face, 0: the camera's density at its centre
   int tile = 0;       ///< largest tile's side in pixels, 0: what the driver allows
-  std::optional<glm::vec3> background;  ///< linear RGB where a ray meets nothing; nothing: a sky
+  std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
 };
 
-/// What a picture took. Times are milliseconds, GPU stages by timer queries.
+/// What a picture took. Times are milliseconds, of the GPU's own clock where there is a GPU.
 struct RenderStats {
   std::string technique;       ///< the one that drew, `name:variant`
   std::string renderer;        ///< the GL renderer
   size_t triangles = 0;        ///< in the scene
-  size_t triangles_drawn = 0;  ///< rasterized or traced against, over all passes
+  size_t triangles_drawn = 0;  ///< primitives that reached the rasterizer, over all passes
   size_t buffer_bytes = 0;     ///< on the GPU: geometry, textures, targets
   int tiles = 0;
   int passes = 0;  ///< colour passes accumulated

@@ -20,7 +20,7 @@ struct DrawTools {
   const GpuScene& scene;
   ProgramCache programs{};
   RayMapTexture ray_map{};
-  gl::StageTimer timer{};
+  gl::StageTimer timer{context.software()};
   gl::VertexArray no_vertices = gl::create_vertex_array();
 
   /// One triangle over the bound target with `program`.

@@ -1,0 +1,48 @@
+#include "bench/bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/image_based.h"
+
+namespace omma::bench {
+namespace {
+
+constexpr Benchmark list[] = {
+    {"image-based", "the cube map's variants and the exact oracle against a planar picture of the same scene and size",
+     run_image_based},
+};
+
+double percentile(const std::vector<double>& sorted, double share) {
+  return sorted[size_t(std::lround(share * double(sorted.size() - 1)))];
+}
+
+}  // namespace
+
+std::span<const Benchmark> benchmarks() { return list; }
+
+std::vector<Timing> measure_in_turn(std::span<const std::function<double()>> configurations, int runs) {
+  std::vector<std::vector<double>> times(configurations.size());
+  for (const auto& configuration : configurations) configuration();
+  for (int run = 0; run < runs; ++run) {
+    for (size_t i = 0; i < configurations.size(); ++i) times[i].push_back(configurations[i]());
+  }
+  std::vector<Timing> timings;
+  for (std::vector<double>& samples : times) {
+    std::sort(samples.begin(), samples.end());
+    timings.push_back({percentile(samples, 0.5), percentile(samples, 0.1), percentile(samples, 0.9)});
+  }
+  return timings;
+}
+
+std::string to_text(const Timing& timing) {
+  return fmt::format("{:.1f} ({:.1f}–{:.1f})", timing.median, timing.low, timing.high);
+}
+
+nlohmann::json to_json(const Timing& timing) {
+  return {{"median_ms", timing.median}, {"p10_ms", timing.low}, {"p90_ms", timing.high}};
+}
+
+}  // namespace omma::bench

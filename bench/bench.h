@@ -1,0 +1,40 @@
+// Benchmarks: each prints a table of medians, their spread, and ratios to a baseline measured in the same run.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace omma::bench {
+
+struct Options {
+  int runs = 9;  ///< of each configuration, after one that warms up
+};
+
+struct Benchmark {
+  const char* name;
+  const char* description;
+  /// Prints its tables as Markdown and returns the same numbers.
+  nlohmann::json (*run)(const Options& options);
+};
+
+/// The only list of benchmarks.
+std::span<const Benchmark> benchmarks();
+
+/// Of one configuration, in milliseconds.
+struct Timing {
+  double median = 0.0, low = 0.0, high = 0.0;  ///< low and high: 10th and 90th percentile
+};
+
+/// Runs every configuration once to warm up, then all of them in turn, `runs` times: what disturbs the machine for a
+/// while disturbs them alike. A configuration returns its milliseconds.
+std::vector<Timing> measure_in_turn(std::span<const std::function<double()>> configurations, int runs);
+
+/// "12.3 (11.9–14.0)"
+std::string to_text(const Timing& timing);
+nlohmann::json to_json(const Timing& timing);
+
+}  // namespace omma::bench
