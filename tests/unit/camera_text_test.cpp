@@ -252,6 +252,7 @@ TEST(PixelsPerRadian, IsTheDensityAtTheCentre) {
 TEST(LensTable, NamesEveryLensAndParameter) {
   for (const std::string& table : {lens_table_markdown(), lens_table_text()}) {
     for (const LensModel& model : lens_models()) {
+      EXPECT_NE(std::ranges::find(lens_groups, std::string(model.info.group)), lens_groups.end()) << model.info.name;
       for (const char* fact : {model.info.name, model.info.also, model.info.formula, model.info.source}) {
         EXPECT_NE(table.find(fact), std::string::npos) << fact;
       }

@@ -24,6 +24,9 @@ enum class Fit { width, height, shorter, longer, diagonal };
 
 const char* fit_name(Fit fit);
 
+/// The kinds of lenses, in the order in which they are listed.
+inline constexpr std::array<const char*, 4> lens_groups = {"radial", "calibrated", "panoramic", "layout"};
+
 struct LensParameterInfo {
   const char* name;
   double default_value;
@@ -34,6 +37,7 @@ struct LensParameterInfo {
 /// What a lens says of itself; everything printed about lenses comes from here.
 struct LensInfo {
   const char* name;        ///< as on the command line
+  const char* group;       ///< one of lens_groups: what kind of lens it is
   const char* also;        ///< other names that are understood, separated by ", "
   const char* formula;     ///< one line, r as a function of θ or x, y of longitude and latitude
   const char* source;      ///< paper, section or tool the formula comes from

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 #include "omma/camera/camera_parameters.h"
 #include "omma/camera/lens_model.h"
 
@@ -16,28 +18,47 @@ std::string default_fov(const LensInfo& info) {
   return info.default_fov_deg == 0 ? "none" : fmt::format("{}°", info.default_fov_deg);
 }
 
+std::vector<const LensInfo*> lenses_of(const std::string& group) {
+  std::vector<const LensInfo*> lenses;
+  for (const LensModel& model : lens_models()) {
+    if (group == model.info.group) lenses.push_back(&model.info);
+  }
+  return lenses;
+}
+
+// "Radial lenses".
+std::string heading(std::string group) {
+  group[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(group[0])));
+  return group + " lenses";
+}
+
 }  // namespace
 
 std::string lens_table_markdown() {
-  std::string text =
-      "| name | other names | formula | `fov_deg` | default | default `fit` | source |\n"
-      "|---|---|---|---|---|---|---|\n";
-  for (const LensModel& model : lens_models()) {
-    const LensInfo& info = model.info;
-    text += fmt::format("| `{}` | {} | {} | {} | {} | `{}` | {} |\n", info.name, info.also, info.formula,
-                        fov_range(info), default_fov(info), fit_name(info.default_fit), info.source);
-  }
-  for (const LensModel& model : lens_models()) {
-    const LensInfo& info = model.info;
-    if (info.parameters.empty()) continue;
-    text += fmt::format("\nParameters of `{}`, for example `{}`:\n\n", info.name, info.example);
-    text += "| parameter | default | range | meaning |\n|---|---|---|---|\n";
-    for (const LensParameterInfo& parameter : info.parameters) {
-      text += fmt::format("| `{}` | {} | {} to {} | {} |\n", parameter.name, parameter.default_value, parameter.min,
-                          parameter.max, parameter.description);
+  std::string text;
+  for (const char* group : lens_groups) {
+    const std::vector<const LensInfo*> lenses = lenses_of(group);
+    if (lenses.empty()) continue;
+    text += fmt::format(
+        "{}## {}\n\n"
+        "| name | other names | formula | `fov_deg` | default | default `fit` | source |\n"
+        "|---|---|---|---|---|---|---|\n",
+        text.empty() ? "" : "\n", heading(group));
+    for (const LensInfo* info : lenses) {
+      text += fmt::format("| `{}` | {} | {} | {} | {} | `{}` | {} |\n", info->name, info->also, info->formula,
+                          fov_range(*info), default_fov(*info), fit_name(info->default_fit), info->source);
+    }
+    for (const LensInfo* info : lenses) {
+      if (info->parameters.empty()) continue;
+      text += fmt::format("\nParameters of `{}`, for example `{}`:\n\n", info->name, info->example);
+      text += "| parameter | default | range | meaning |\n|---|---|---|---|\n";
+      for (const LensParameterInfo& parameter : info->parameters) {
+        text += fmt::format("| `{}` | {} | {} to {} | {} |\n", parameter.name, parameter.default_value, parameter.min,
+                            parameter.max, parameter.description);
+      }
     }
   }
-  text += "\nParameters of every lens:\n\n| parameter | default | meaning |\n|---|---|---|\n";
+  text += "\n## Parameters of every lens\n\n| parameter | default | meaning |\n|---|---|---|\n";
   for (const CameraParameterInfo& parameter : common_camera_parameters()) {
     text += fmt::format("| `{}` | {} | {} |\n", parameter.name, parameter.default_text, parameter.description);
   }
@@ -46,15 +67,18 @@ std::string lens_table_markdown() {
 
 std::string lens_table_text() {
   std::string text;
-  for (const LensModel& model : lens_models()) {
-    const LensInfo& info = model.info;
-    text += fmt::format("{}\n  also     {}\n  formula  {}\n  fov_deg  {}, default {}, spans the {}\n", info.name,
-                        info.also, info.formula, fov_range(info), default_fov(info), fit_name(info.default_fit));
-    for (const LensParameterInfo& parameter : info.parameters) {
-      text += fmt::format("  {:<8} {} ({} to {}, default {})\n", parameter.name, parameter.description, parameter.min,
-                          parameter.max, parameter.default_value);
+  for (const char* group : lens_groups) {
+    const std::vector<const LensInfo*> lenses = lenses_of(group);
+    if (!lenses.empty()) text += fmt::format("{}\n\n", heading(group));
+    for (const LensInfo* info : lenses) {
+      text += fmt::format("{}\n  also     {}\n  formula  {}\n  fov_deg  {}, default {}, spans the {}\n", info->name,
+                          info->also, info->formula, fov_range(*info), default_fov(*info), fit_name(info->default_fit));
+      for (const LensParameterInfo& parameter : info->parameters) {
+        text += fmt::format("  {:<8} {} ({} to {}, default {})\n", parameter.name, parameter.description, parameter.min,
+                            parameter.max, parameter.default_value);
+      }
+      text += fmt::format("  example  {}\n  source   {}\n\n", info->example, info->source);
     }
-    text += fmt::format("  example  {}\n  source   {}\n\n", info.example, info.source);
   }
   text += "Every lens takes:\n";
   for (const CameraParameterInfo& parameter : common_camera_parameters()) {

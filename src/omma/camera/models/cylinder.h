@@ -3,6 +3,7 @@
 #ifdef __cplusplus
 inline constexpr LensInfo cylinder_info = {
     .name = "cylinder",
+    .group = "panoramic",
     .also = "cylindrical",
     .formula = "x = longitude, y = tan(latitude)",
     .source = "Snyder 1987, Map Projections, chapter 14 (central cylindrical)",

@@ -2,6 +2,7 @@
 #ifdef __cplusplus
 inline constexpr LensInfo equidistant_info = {
     .name = "equidistant",
+    .group = "radial",
     .also = "fisheye, f-theta, linear_fisheye, equiangular",
     .formula = "r = θ",
     .source = "Gascuel et al. 2008, table 1, fish-eye (2)",

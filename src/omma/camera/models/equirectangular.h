@@ -2,6 +2,7 @@
 #ifdef __cplusplus
 inline constexpr LensInfo equirectangular_info = {
     .name = "equirectangular",
+    .group = "panoramic",
     .also = "equirect, latlong, plate_carree, spherical",
     .formula = "x = longitude, y = latitude",
     .source = "Snyder 1987, Map Projections, chapter 12; COLMAP EQUIRECTANGULAR",

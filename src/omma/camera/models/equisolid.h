@@ -2,6 +2,7 @@
 #ifdef __cplusplus
 inline constexpr LensInfo equisolid_info = {
     .name = "equisolid",
+    .group = "radial",
     .also = "equal_area_fisheye, lambert_azimuthal, fisheye_equisolid",
     .formula = "r = 2 sin(θ/2)",
     .source = "Lambert 1772; Snyder 1987, Map Projections, chapter 24",

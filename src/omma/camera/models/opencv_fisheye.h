@@ -11,6 +11,7 @@ inline constexpr LensParameterInfo opencv_fisheye_parameters[] = {
 
 inline constexpr LensInfo opencv_fisheye_info = {
     .name = "opencv_fisheye",
+    .group = "calibrated",
     .also = "OPENCV_FISHEYE, kannala_brandt, kb4",
     .formula = "r = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)",
     .source = "Kannala, Brandt 2006; OpenCV 4.6 fisheye module",

@@ -2,6 +2,7 @@
 #ifdef __cplusplus
 inline constexpr LensInfo orthographic_fisheye_info = {
     .name = "orthographic_fisheye",
+    .group = "radial",
     .also = "orthographic, cosine_sphere",
     .formula = "r = sin θ",
     .source = "Snyder 1987, Map Projections, chapter 20",

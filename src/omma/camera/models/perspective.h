@@ -2,6 +2,7 @@
 #ifdef __cplusplus
 inline constexpr LensInfo perspective_info = {
     .name = "perspective",
+    .group = "radial",
     .also = "pinhole, rectilinear, flat, gnomonic",
     .formula = "r = tan θ",
     .source = "OpenGL 4.5, 13.6 (gluPerspective); COLMAP PINHOLE",

@@ -2,6 +2,7 @@
 #ifdef __cplusplus
 inline constexpr LensInfo stereographic_info = {
     .name = "stereographic",
+    .group = "radial",
     .also = "paraboloid, conformal_fisheye, little_planet",
     .formula = "r = 2 tan(θ/2)",
     .source = "Snyder 1987, Map Projections, chapter 21; Heidrich, Seidel 1998 (paraboloid)",
