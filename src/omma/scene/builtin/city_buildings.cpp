@@ -110,10 +110,8 @@ void build_houses(CityGroup& group, Random& random, const Frame& frame, float si
   row({frame.point(b, 0.0f, b), -x, -z}, inner);
   row({frame.point(b, 0.0f, a + depth + 1.0f), z, -x}, inner - 2.0f * depth - 2.0f);
   row({frame.point(a, 0.0f, b - depth - 1.0f), -z, x}, inner - 2.0f * depth - 2.0f);
-  for (int i = 0; i < 2; ++i) {
-    add_tree(group, random, frame.point(random.between(20.0f, side - 20.0f), kerb, random.between(20.0f, side - 20.0f)),
-             random.between(0.9f, 1.5f));
-  }
+  add_tree(group, random, frame.point(random.between(20.0f, side - 20.0f), kerb, random.between(20.0f, side - 20.0f)),
+           random.between(0.9f, 1.5f));
 }
 
 /// A parapet all round a flat roof, and the roof between.
@@ -247,7 +245,7 @@ void furnish_pavement(CityGroup& group, Random& random, const Frame& frame, floa
       add_lamp(group, edge.at(side * 0.25f, kerb, 0.6f));
       const Frame parked{edge.point(side * random.between(0.12f, 0.8f), 0.0f, -0.35f), -edge.back, edge.right};
       add_car(group, random, parked);
-    } else if (i == 1 || random.below(3) == 0) {
+    } else if (i == 1) {
       add_tree(group, random, edge.point(side * random.between(0.3f, 0.7f), kerb, 1.2f), random.between(0.85f, 1.2f));
     }
   }

@@ -18,6 +18,12 @@ int add_aimed_node(Import& import, const aiString& name, const aiVector3D& posit
                    const aiVector3D& up) {
   const auto parent = import.node_of_name.find(name.C_Str());
   glm::dvec3 from = to_dvec3(position), along = to_dvec3(direction), above = to_dvec3(up);
+  if (import.gltf) {
+    // By definition there; assimp repeats the node's translation in a camera's position.
+    from = glm::dvec3(0.0);
+    along = {0.0, 0.0, -1.0};
+    above = {0.0, 1.0, 0.0};
+  }
   if (!finite(from) || !finite(along) || !finite(above)) return -1;
   if (glm::length(along) == 0.0) along = {0.0, 0.0, -1.0};
   if (glm::length(above) == 0.0) above = {0.0, 1.0, 0.0};

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "omma/base/error.h"
+#include "omma/scene/file/bounded_io.h"
 #include "omma/scene/file/import.h"
 
 namespace omma::file {
@@ -248,6 +249,7 @@ Scene load_scene_file(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   Assimp::Importer importer;
+  importer.SetIOHandler(new file::BoundedFiles);  // the importer owns it
   file::require_readable(importer, path, extension);
   // Checked between reading and processing: assimp trusts what its readers made of a file, and its own validation
   // refuses harmless things, an STL solid without faces for one.
