@@ -60,9 +60,12 @@ void add_bench(CLI::App& tool) {
   command->add_option("NAME", options->names, "Which benchmarks; all without a name");
   command->add_option("--runs", options->runs, "How often each configuration is measured (default 9)");
   command->add_option("--json", options->json, "Writes the same numbers to this file");
-  command->footer("Benchmarks:\n" + names +
-                  "All configurations of a table are measured in turn, so that what disturbs the machine disturbs them\n"
-                  "alike. A time is the median of its runs, with the 10th and 90th percentile behind it.");
+  command->footer(
+      "Benchmarks:\n" + names +
+      "All configurations of a table are measured in turn, so that what disturbs the machine disturbs them\n"
+      "alike. A time is the median of its runs, with the 10th and 90th percentile behind it.\n"
+      "Example:\n"
+      "  omma bench image-based --runs 5 --json out.json");
   command->callback([options] { run(*options); });
 }
 

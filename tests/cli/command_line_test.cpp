@@ -6,7 +6,8 @@ namespace {
 
 using CommandLine = ToolTest;
 
-const std::vector<std::string> commands{"render", "compare", "camera", "cameras", "scenes", "doctor", "techniques"};
+const std::vector<std::string> commands{"render", "compare", "camera",     "cameras",
+                                        "scenes", "doctor",  "techniques", "bench"};
 
 /// A command that would render, and what follows.
 std::vector<std::string> render(const std::vector<std::string>& more) {
