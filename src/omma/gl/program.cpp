@@ -37,7 +37,8 @@ void append_file(const std::string& name, const Defines& defines, std::vector<st
       continue;
     }
     const std::string_view path = row.substr(include.size(), row.rfind('"') - include.size());
-    append_file(substitute(std::string(path), defines), defines, files, out);
+    const std::string target = substitute(std::string(path), defines);
+    if (target.find("${") == std::string::npos) append_file(target, defines, files, out);
     out += fmt::format("#line {} {}\n", line + 1, number);
   }
 }

@@ -1,7 +1,7 @@
 // GLSL programs from the files of shaders/.
 //
-// `#include "path"` pulls in another file once; `${NAME}` in its path is replaced by that define's value. Every line
-// keeps its number, and a compiler's complaint names the file.
+// `#include "path"` pulls in another file once; `${NAME}` in its path is replaced by that define's value, and
+// without that define it pulls in nothing. Every line keeps its number, and a compiler's complaint names the file.
 #pragma once
 
 #include <epoxy/gl.h>

@@ -15,6 +15,7 @@ namespace {
 enum class Variant { seen, passes, layered };
 
 constexpr int face_count = 6;
+constexpr int mipmap_levels = 5;
 
 /// A face, or the part of one, that is drawn.
 struct Face {
@@ -107,7 +108,10 @@ class ImageBased : public Technique {
     const int texels = face_texels(view);
     const int border = margin(view);
     const double texel = 2.0 / texels;  // in tangents
-    const double limit = 1.0 + border * texel;
+    const bool mipmapped = view.anisotropic() && !view.labels();
+    // Windows begin and end on the face's own grid of texels, and on that of its smallest mipmap: no texel depends on
+    // how much of its face is seen, and tiles fit together.
+    const int grid = mipmapped ? 1 << (mipmap_levels - 1) : 1;
     std::array<FaceWindow, face_count> windows;
     if (variant_ == Variant::seen) {
       if (windows_camera_ != view.camera || windows_tile_ != view.tile) {
@@ -122,33 +126,37 @@ class ImageBased : public Technique {
 
     faces_.clear();
     ImageSize size{1, 1};
+    const int most = std::min(tools_.context.limits().texture_size, tools_.context.limits().viewport_size);
+    double largest = 0.0;
     for (int f = 0; f < face_count; ++f) {
       const FaceWindow& window = windows[size_t(f)];
       if (window.empty()) continue;
-      const glm::dvec2 min = glm::max(window.min - border * texel, -limit);
-      const glm::dvec2 max = glm::min(window.max + border * texel, limit);
-      const glm::dvec2 count = glm::ceil((max - min) / texel - 1e-6);
-      const glm::dvec2 end = min + count * texel;
+      const auto from_edge = [](const glm::dvec2& tangent) { return glm::clamp(tangent, -1.0, 1.0) + 1.0; };
+      const glm::dvec2 first = glm::floor((from_edge(window.min) / texel - double(border)) / double(grid) + 1e-6);
+      const glm::dvec2 last = glm::ceil((from_edge(window.max) / texel + double(border)) / double(grid) - 1e-6);
+      const glm::dvec2 min = first * (grid * texel) - 1.0, end = last * (grid * texel) - 1.0;
+      const glm::dvec2 count = (last - first) * double(grid);
+      largest = std::max({largest, count.x, count.y});
+      if (largest > most) continue;
       Face face{f, {int(count.x), int(count.y)}, {}, glm::vec2(1.0 / texel), glm::vec2(-min / texel)};
       face.clipFromCamera =
           clip_from_flat_frame({min.x, end.x}, {min.y, end.y}) * glm::dmat4(faceFromCamera[size_t(f)]);
       size = {std::max(size.width, face.size.width), std::max(size.height, face.size.height)};
       faces_.push_back(face);
     }
-    if (const int most = std::min(tools_.context.limits().texture_size, tools_.context.limits().viewport_size);
-        std::max(size.width, size.height) > most) {
+    if (largest > most) {
       throw MachineError(
-          "cube faces of {} texels are too large for this driver, which draws up to {}; give a smaller "
+          "cube faces of {:.0f} texels are too large for this driver, which draws up to {}; give a smaller "
           "--face-size or --tile",
-          std::max(size.width, size.height), most);
+          largest, most);
     }
     for (Face& face : faces_) {
       if (variant_ == Variant::layered) face.size = size;
       face.scale /= glm::vec2(size.width, size.height);
       face.offset /= glm::vec2(size.width, size.height);
     }
-    const bool mipmapped = view.anisotropic() && !view.labels();
-    const int levels = mipmapped ? std::min(5, int(std::bit_width(unsigned(std::max(size.width, size.height))))) : 1;
+    const int levels =
+        mipmapped ? std::min(mipmap_levels, int(std::bit_width(unsigned(std::max(size.width, size.height))))) : 1;
     const size_t layer_count = std::max<size_t>(1, faces_.size());
     if (!images_.fit(size, view.outputs, layer_count, levels)) {
       images_ = FaceImages(size, view.outputs, int(layer_count), levels);
