@@ -26,12 +26,12 @@ void set_camera(const gl::Program& program, const View& view) {
 void RayMapTexture::bind(const Camera& camera) {
   const RayMap* map = camera.ray_map();
   if (map == nullptr) return;
-  if (map != map_) {
+  if (camera_ != camera) {
     texture_ = gl::Texture::image(GL_RGBA32F, map->size);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(texture_.id(), 0, 0, 0, map->size.width, map->size.height, GL_RGB, GL_FLOAT,
                         map->directions.data());
-    map_ = map;
+    camera_ = camera;
   }
   texture_.bind(8);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ class RayMapTexture {
   void bind(const Camera& camera);
 
  private:
-  const RayMap* map_ = nullptr;
+  std::optional<Camera> camera_;  ///< kept alive: another map may not come to lie at its address
   gl::Texture texture_;
 };
 

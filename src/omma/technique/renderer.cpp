@@ -1,7 +1,6 @@
 #include "omma/technique/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "omma/base/error.h"
@@ -92,7 +91,10 @@ struct Renderer::Parts {
   std::unique_ptr<GpuScene> gpu_scene;
   std::unique_ptr<DrawTools> tools;
   std::map<std::string, std::unique_ptr<Technique>> techniques;
-  Target target, sum;
+  Target target;
+
+  /// Objects are deleted in the context that is current, which may be another renderer's.
+  ~Parts() { context.make_current(); }
 
   Technique& technique(const ChosenTechnique& chosen) {
     std::unique_ptr<Technique>& technique = techniques[chosen.name()];
@@ -179,6 +181,7 @@ void Renderer::load(const Scene& scene) {
 }
 
 void Renderer::update() {
+  if (parts_->gpu_scene == nullptr) throw CommandError("there is no scene to update; call Renderer::load first");
   parts_->context.make_current();
   parts_->gpu_scene->update();
   for (auto& [name, technique] : parts_->techniques) technique->scene_changed();
