@@ -5,8 +5,8 @@ namespace omma {
 const std::vector<BuiltinScene>& builtin_scenes() {
   static const std::vector<BuiltinScene> scenes = {
       {"city",
-       "a town of houses, flats, towers and parks in 14 materials, from the street; about 970 "
-       "triangles a block: 35,000 with blocks=6, 0.25 million with 16, 0.9 with 30, 3.2 with 57",
+       "a town of houses, flats, towers and parks in 14 materials, from the street; about 1,000 "
+       "triangles a block: 37,000 with blocks=6, 0.26 million with 16, 0.9 with 30, 3.3 with 57",
        {{"blocks", 6, 1, 64, "blocks along each side of the town"}, {"seed", 1, 0, 1e6, "another town"}},
        builtin::make_city},
       {"temple", "a Doric temple of fluted columns: about 4,000 long, thin triangles", {}, builtin::make_temple},

@@ -80,12 +80,15 @@ void add_house(CityGroup& group, Random& random, const Frame& frame, float width
   const float light = random.between(0.6f, 1.0f);
   const float rise = random.between(2.4f, 3.8f);
   add_pitched_roof(group, frame, width, depth, eaves, rise, tint(light, light * 0.95f, light * 0.92f), walls);
-  const float chimney = random.between(0.15f, 0.75f) * width;
-  add_box(group[concrete], frame, {chimney, eaves + 0.3f * rise, depth * 0.55f},
-          {chimney + 0.7f, eaves + rise + 0.9f, depth * 0.55f + 0.9f}, 2.0f, tint(0.55f, 0.38f, 0.33f),
-          sides_no_bottom);
-  add_box(group[concrete], frame, {width * 0.5f - 0.8f, footing, -1.0f}, {width * 0.5f + 0.8f, kerb + 0.3f, 0.1f}, 2.0f,
-          white, sides_no_bottom & ~side_back);
+  if (random.below(2) == 0) {
+    const float x = random.between(0.15f, 0.75f) * width;
+    add_box(group[concrete], frame, {x, eaves + 0.3f * rise, depth * 0.55f},
+            {x + 0.7f, eaves + rise + 0.9f, depth * 0.55f + 0.9f}, 2.0f, tint(0.55f, 0.38f, 0.33f), sides_no_bottom);
+  }
+  if (random.below(2) == 0) {
+    add_box(group[concrete], frame, {width * 0.5f - 0.8f, footing, -1.0f}, {width * 0.5f + 0.8f, kerb + 0.3f, 0.1f},
+            2.0f, white, sides_no_bottom & ~side_back);
+  }
 }
 
 /// Two long rows face front and back, two short ones right and left; gardens lie inside.
@@ -232,7 +235,7 @@ void build_park(CityGroup& group, Random& random, const Frame& frame, float side
   add_lathe(group[concrete], frame.point(m, 0.0f, m), basin, 12, 4.0f);
 }
 
-/// Lamps and parked cars along two sides, trees along the others.
+/// Lamps and parked cars on the right and left, trees in front and on the right.
 void furnish_pavement(CityGroup& group, Random& random, const Frame& frame, float side) {
   const glm::vec3 x = frame.right, z = frame.back;
   const Frame sides[] = {{frame.origin, x, z},
@@ -241,11 +244,12 @@ void furnish_pavement(CityGroup& group, Random& random, const Frame& frame, floa
                          {frame.point(0.0f, 0.0f, side), -z, x}};
   for (int i = 0; i < 4; ++i) {
     const Frame& edge = sides[i];
-    if (i % 2 == 0) {
+    if (i % 2 == 1) {
       add_lamp(group, edge.at(side * 0.25f, kerb, 0.6f));
       const Frame parked{edge.point(side * random.between(0.12f, 0.8f), 0.0f, -0.35f), -edge.back, edge.right};
       add_car(group, random, parked);
-    } else if (i == 1) {
+    }
+    if (i < 2) {
       add_tree(group, random, edge.point(side * random.between(0.3f, 0.7f), kerb, 1.2f), random.between(0.85f, 1.2f));
     }
   }

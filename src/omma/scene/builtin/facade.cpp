@@ -52,10 +52,10 @@ void add_house(std::array<Mesh, material_count>& meshes, Random& random, const F
   const Tint tint(glm::vec4(light, light * random.between(0.85f, 1.0f), light * random.between(0.7f, 1.0f), 1.0f) *
                   255.0f);
   const float eaves = shop_height + storey * static_cast<float>(storeys);
-  add_quad(
-      meshes[shops], frame.point(0, 0, 0), frame.point(house_width, 0, 0), frame.point(house_width, shop_height, 0),
-      frame.point(0, shop_height, 0),
-      {0.25f * static_cast<float>(random.below(4)), 0.0f, 0.25f * static_cast<float>(random.below(4)) + 0.5f, 1.0f});
+  const float first_shop = 0.25f * static_cast<float>(random.below(4));
+  add_quad(meshes[shops], frame.point(0, 0, 0), frame.point(house_width, 0, 0),
+           frame.point(house_width, shop_height, 0), frame.point(0, shop_height, 0),
+           {first_shop, 0.0f, first_shop + 0.5f, 1.0f});
   if (detail == 0) {
     const float rows = static_cast<float>(storeys) / 4.0f;
     add_quad(meshes[windows], frame.point(0, shop_height, 0), frame.point(house_width, shop_height, 0),

@@ -43,7 +43,7 @@ Tint ground_color(float y, float steepness, float variation) {
   glm::vec3 color = glm::mix(meadow, scree, step(0.30f * peak, 0.48f * peak, y + 60.0f * variation));
   color = glm::mix(color, rock, step(0.22f, 0.42f, steepness + 0.05f * variation));
   color = glm::mix(color, snow,
-                   step(0.50f * peak, 0.60f * peak, y + 70.0f * variation) * (1.0f - step(0.40f, 0.62f, steepness)));
+                   step(0.38f * peak, 0.48f * peak, y + 70.0f * variation) * (1.0f - step(0.45f, 0.66f, steepness)));
   return Tint(glm::clamp(color * (1.0f + 0.12f * variation), 0.0f, 1.0f) * 255.0f + 0.5f, 255);
 }
 
