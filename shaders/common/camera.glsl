@@ -67,7 +67,19 @@ struct PixelRay {
   vec3 dx, dy;     // per pixel to the right and down
 };
 
-// Central differences over one pixel; at the border of the image circle the side that exists.
+// A change per pixel from those over the half pixels before and after: where one side has no ray, or jumps to another
+// part of the world as cube layouts do, the other side alone.
+vec3 per_pixel(bool has_before, vec3 before, bool has_after, vec3 after) {
+  if (has_before && has_after) {
+    float before2 = dot(before, before), after2 = dot(after, after);
+    has_before = before2 < 16.0 * after2;
+    has_after = after2 < 16.0 * before2;
+    if (has_before == has_after) return before + after;
+  }
+  return has_before ? 2.0 * before : has_after ? 2.0 * after : vec3(0.0);
+}
+
+// Central differences over one pixel.
 PixelRay camera_ray(vec2 pixel) {
   PixelRay ray;
   ray.valid = camera_unproject(pixel, ray.direction);
@@ -76,9 +88,7 @@ PixelRay camera_ray(vec2 pixel) {
   bool has_right = camera_unproject(pixel + vec2(0.5, 0.0), right);
   bool has_up = camera_unproject(pixel - vec2(0.0, 0.5), up);
   bool has_down = camera_unproject(pixel + vec2(0.0, 0.5), down);
-  ray.dx = (has_right ? right : ray.direction) - (has_left ? left : ray.direction);
-  ray.dy = (has_down ? down : ray.direction) - (has_up ? up : ray.direction);
-  if (has_left != has_right) ray.dx *= 2.0;
-  if (has_up != has_down) ray.dy *= 2.0;
+  ray.dx = per_pixel(has_left, ray.direction - left, has_right, right - ray.direction);
+  ray.dy = per_pixel(has_up, ray.direction - up, has_down, down - ray.direction);
   return ray;
 }

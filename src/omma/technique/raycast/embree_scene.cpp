@@ -89,50 +89,62 @@ struct MeshData {
   bool cull;  ///< rays pass its back faces
 };
 
+/// A point where a ray meets a triangle, as Embree tells of it.
+struct Candidate {
+  uint32_t triangle;  ///< of its mesh
+  float u, v;
+  float facing;  ///< ray times geometric normal, both in the object's own frame, where the winding is as modelled
+};
+
+/// False for what a ray passes: back faces of single-sided materials, holes, blended surfaces.
+bool stops(const MeshData& data, const Candidate& candidate, Solid solid) {
+  if (data.cull && candidate.facing >= 0.0f) return false;
+  if (data.alpha == Material::Alpha::opaque) return true;
+  const bool blended = data.alpha == Material::Alpha::blend;
+  if (blended && solid == Solid::opaque) return false;
+  const float cutoff = blended ? label_alpha_cutoff : data.scene->materials[size_t(data.mesh->material)].alpha_cutoff;
+  return coverage(*data.scene, *data.mesh, candidate.triangle, candidate.u, candidate.v) >= cutoff;
+}
+
 /// What a query asks for, behind Embree's own context.
 struct Query {
   RTCIntersectContext context;
   Solid solid = Solid::opaque;
   std::vector<RayHit>* collected = nullptr;  ///< receives blended surfaces; the ray then stops at nothing
-
-  explicit Query(Solid what, bool coherent) : solid(what) {
-    rtcInitIntersectContext(&context);
-    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  }
 };
 
-/// Takes back the hits that a ray passes: back faces of single-sided materials, holes, blended surfaces.
-void pass_or_stop(const RTCFilterFunctionNArguments* arguments) {
+/// Takes back the hits that a ray passes.
+void filter(const RTCFilterFunctionNArguments* arguments) {
   const auto& data = *static_cast<const MeshData*>(arguments->geometryUserPtr);
   const auto& query = *reinterpret_cast<const Query*>(arguments->context);
   const unsigned count = arguments->N;
   RTCRayN* ray = arguments->ray;
   RTCHitN* hit = arguments->hit;
-  const bool blended = data.alpha == Material::Alpha::blend;
-  const auto stops = [&](unsigned i) {
-    // Embree gives normal and ray in the object's own frame, where the winding is as it was modelled.
-    if (data.cull && RTCRayN_dir_x(ray, count, i) * RTCHitN_Ng_x(hit, count, i) +
-                             RTCRayN_dir_y(ray, count, i) * RTCHitN_Ng_y(hit, count, i) +
-                             RTCRayN_dir_z(ray, count, i) * RTCHitN_Ng_z(hit, count, i) >=
-                         0.0f) {
-      return false;
-    }
-    const uint32_t triangle = RTCHitN_primID(hit, count, i), instance = RTCHitN_instID(hit, count, i, 0);
-    if (query.collected != nullptr) {
-      if (blended) {
-        query.collected->push_back(
-            {data.scene->instances[instance].first_triangle + triangle, instance, RTCRayN_tfar(ray, count, i)});
-      }
-      return false;
-    }
-    if (data.alpha == Material::Alpha::opaque) return true;
-    if (blended && query.solid == Solid::opaque) return false;
-    const float cutoff = blended ? label_alpha_cutoff : data.scene->materials[size_t(data.mesh->material)].alpha_cutoff;
-    return coverage(*data.scene, *data.mesh, triangle, RTCHitN_u(hit, count, i), RTCHitN_v(hit, count, i)) >= cutoff;
-  };
   for (unsigned i = 0; i < count; ++i) {
-    if (arguments->valid[i] == -1 && !stops(i)) arguments->valid[i] = 0;
+    if (arguments->valid[i] != -1) continue;
+    const Candidate candidate{RTCHitN_primID(hit, count, i), RTCHitN_u(hit, count, i), RTCHitN_v(hit, count, i),
+                              RTCRayN_dir_x(ray, count, i) * RTCHitN_Ng_x(hit, count, i) +
+                                  RTCRayN_dir_y(ray, count, i) * RTCHitN_Ng_y(hit, count, i) +
+                                  RTCRayN_dir_z(ray, count, i) * RTCHitN_Ng_z(hit, count, i)};
+    if (query.collected == nullptr) {
+      if (!stops(data, candidate, query.solid)) arguments->valid[i] = 0;
+      continue;
+    }
+    if (data.alpha == Material::Alpha::blend && !(data.cull && candidate.facing >= 0.0f)) {
+      const uint32_t instance = RTCHitN_instID(hit, count, i, 0);
+      query.collected->push_back({data.scene->instances[instance].first_triangle + candidate.triangle, instance,
+                                  RTCRayN_tfar(ray, count, i)});
+    }
+    arguments->valid[i] = 0;
   }
+}
+
+Query make_query(Solid solid, RTCIntersectContextFlags flags) {
+  Query query;
+  rtcInitIntersectContext(&query.context);
+  query.context.flags = flags;
+  query.solid = solid;
+  return query;
 }
 
 glm::vec3 at(std::span<const glm::vec3> values, size_t i) { return values.empty() ? glm::vec3(0.0f) : values[i]; }
@@ -146,6 +158,7 @@ struct EmbreeScene::State {
   std::vector<Geometry> geometries;  ///< one per mesh
   std::vector<Tree> trees;           ///< one per mesh
   std::vector<Geometry> instances;
+  std::vector<glm::mat3> objectFromCamera;  ///< of each instance, for directions
   Tree top;
   bool has_blending = false;
 
@@ -162,11 +175,7 @@ struct EmbreeScene::State {
       throw MachineError("Embree has no memory for mesh '{}'", mesh.name);
     std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
     std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
-    const MeshData& data = meshes[m];
-    if (data.cull || data.alpha != Material::Alpha::opaque) {
-      rtcSetGeometryUserData(geometry, &meshes[m]);
-      rtcSetGeometryIntersectFilterFunction(geometry, pass_or_stop);
-    }
+    rtcSetGeometryUserData(geometry, &meshes[m]);
     rtcCommitGeometry(geometry);
     trees[m] = new_tree();
     rtcAttachGeometry(trees[m], geometry);
@@ -175,7 +184,7 @@ struct EmbreeScene::State {
 
   Tree new_tree() const {
     Tree tree(rtcNewScene(device));
-    rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     return tree;
   }
 };
@@ -212,12 +221,14 @@ void EmbreeScene::set_view(const glm::dmat4& worldFromCamera) {
   const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
   state.top = state.new_tree();
   state.instances.clear();
+  state.objectFromCamera.clear();
   for (const Instance& instance : state.scene->instances) {
     state.instances.emplace_back(rtcNewGeometry(state.device, RTC_GEOMETRY_TYPE_INSTANCE));
     RTCGeometry geometry = state.instances.back();
     rtcSetGeometryInstancedScene(geometry, state.trees[size_t(instance.mesh)]);
     const glm::mat4 cameraFromObject(cameraFromWorld * instance.worldFromObject);
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &cameraFromObject[0][0]);
+    state.objectFromCamera.emplace_back(glm::inverse(glm::dmat3(cameraFromWorld * instance.worldFromObject)));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(state.top, geometry, unsigned(state.instances.size() - 1));
   }
@@ -230,11 +241,10 @@ void EmbreeScene::nearest(std::span<const glm::vec3> origins, std::span<const gl
   const auto trace_block = [&](int x0, int y0) {
     alignas(64) RTCRayHit16 packet;
     alignas(64) int valid[16];
-    for (int lane = 0; lane < 16; ++lane) {
+    const auto reset = [&](int lane) {
       const int x = x0 + lane % block, y = y0 + lane / block;
       const size_t pixel = size_t(std::min(y, height - 1)) * size_t(width) + size_t(std::min(x, width - 1));
       const glm::vec3 direction = directions[pixel], origin = at(origins, pixel);
-      valid[lane] = x < width && y < height && direction != glm::vec3(0.0f) ? -1 : 0;
       packet.ray.org_x[lane] = origin.x;
       packet.ray.org_y[lane] = origin.y;
       packet.ray.org_z[lane] = origin.z;
@@ -247,9 +257,33 @@ void EmbreeScene::nearest(std::span<const glm::vec3> origins, std::span<const gl
       packet.ray.mask[lane] = ~0u;
       packet.ray.flags[lane] = 0;
       packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    }
-    Query query(solid, true);
+      return x < width && y < height && direction != glm::vec3(0.0f);
+    };
+    for (int lane = 0; lane < 16; ++lane) valid[lane] = reset(lane) ? -1 : 0;
+    Query query = make_query(solid, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     rtcIntersect16(valid, state_->top, &query.context, &packet);
+
+    // Asking for every candidate whether it stops its ray would be slow, and most nearest hits do stop it: only rays
+    // whose nearest hit does not are traced again with the question.
+    alignas(64) int again[16];
+    bool any_again = false;
+    for (int lane = 0; lane < 16; ++lane) {
+      again[lane] = 0;
+      if (!valid[lane] || packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+      const Instance& instance = state_->scene->instances[packet.hit.instID[0][lane]];
+      const glm::vec3 normal(packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]);
+      const glm::vec3 direction(packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]);
+      const glm::mat3& objectFromCamera = state_->objectFromCamera[packet.hit.instID[0][lane]];
+      const Candidate candidate{packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane],
+                                glm::dot(objectFromCamera * direction, normal)};
+      if (stops(state_->meshes[size_t(instance.mesh)], candidate, solid)) continue;
+      again[lane] = reset(lane) ? -1 : 0;
+      any_again = true;
+    }
+    if (any_again) {
+      query.context.filter = filter;
+      rtcIntersect16(again, state_->top, &query.context, &packet);
+    }
     for (int lane = 0; lane < 16; ++lane) {
       const int x = x0 + lane % block, y = y0 + lane / block;
       if (x >= width || y >= height) continue;
@@ -287,7 +321,8 @@ std::vector<std::vector<RayHit>> EmbreeScene::blended(std::span<const glm::vec3>
               origin.x,           origin.y, origin.z, 0.0f, directions[i].x, directions[i].y, directions[i].z, 0.0f,
               limits[i].distance, ~0u,      0,        0};
           ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-          Query query(Solid::opaque, false);
+          Query query = make_query(Solid::opaque, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+      query.context.filter = filter;
           query.collected = &found[i];
           rtcIntersect1(state_->top, &query.context, &ray);
           const auto order = [](const RayHit& a, const RayHit& b) {

@@ -1,7 +1,8 @@
 #include "omma/technique/raycast/raycast.h"
 
 #include <algorithm>
-#include <chrono>
+#include <map>
+#include <optional>
 
 #include "omma/camera/ray_bundle.h"
 #include "omma/technique/raycast/embree_scene.h"
@@ -18,7 +19,7 @@ class Raycast : public Technique {
 
   void draw(const View& view, const Target& target) override {
     tools_.timer.mark("trace");
-    const RayMap rays = rays_of(view.camera, view.tile, view.shift);
+    const RayMap& rays = rays_for(view);
     const std::span<const glm::vec3> at_centre;
     std::vector<RayHit> hits(rays.directions.size());
     trees_.set_view(view.worldFromCamera);
@@ -39,6 +40,20 @@ class Raycast : public Technique {
   }
 
  private:
+  /// Rays take longer to compute than to trace, and a sequence asks for the same ones again and again.
+  const RayMap& rays_for(const View& view) {
+    constexpr size_t kept = 16;
+    if (rays_camera_ != view.camera || rays_tile_ != view.tile || rays_.size() >= kept) {
+      rays_.clear();
+      rays_camera_ = view.camera;
+      rays_tile_ = view.tile;
+    }
+    const std::pair shift(view.shift.x, view.shift.y);
+    const auto found = rays_.find(shift);
+    if (found != rays_.end()) return found->second;
+    return rays_.emplace(shift, rays_of(view.camera, view.tile, view.shift)).first->second;
+  }
+
   /// Layer by layer from the farthest. A pixel with fewer surfaces than its neighbour joins in at the nearer layers.
   void draw_blended(const View& view, const std::vector<std::vector<RayHit>>& surfaces) {
     size_t layers = 0;
@@ -57,6 +72,9 @@ class Raycast : public Technique {
   DrawTools& tools_;
   EmbreeScene trees_;
   Resolver resolver_;
+  std::optional<Camera> rays_camera_;
+  PixelRect rays_tile_;
+  std::map<std::pair<double, double>, RayMap> rays_;  ///< by the pass's shift
 };
 
 }  // namespace
