@@ -58,11 +58,10 @@ TEST_P(BuiltinSceneTest, TexturesShowSomethingAndUvsSpreadThem) {
   const Scene scene = load_scene(GetParam());
   EXPECT_FALSE(scene.textures.empty());
   for (const Texture& texture : scene.textures) {
-    const std::set<std::tuple<int, int, int>> colors = [&] {
-      std::set<std::tuple<int, int, int>> seen;
-      for (const glm::u8vec4& t : texture.texels) seen.emplace(t.r, t.g, t.b);
-      return seen;
-    }();
+    std::set<std::tuple<int, int, int>> colors;
+    for (const glm::u8vec4& t : texture.texels) {
+      if (colors.size() <= 8) colors.emplace(t.r, t.g, t.b);
+    }
     EXPECT_GT(colors.size(), 8u) << texture.name;
   }
   for (const Mesh& mesh : scene.meshes) {

@@ -41,15 +41,15 @@ int add_aimed_node(Import& import, const aiString& name, const aiVector3D& posit
 ///
 /// The others give a colour without a unit, meant for the old model in which a white surface facing the light shows
 /// exactly that colour, or that over constant + linear d + quadratic d². A white surface reflects irradiance / pi, so
-/// suns shine with pi times the colour, and points are made equal to the file's model at the distance of the scene's
-/// radius, since light here always falls with the square.
-glm::vec3 power(const Import& import, const aiLight& source, double radius) {
+/// suns shine with pi times the colour, and points are made equal to the file's model at `distance`, since light here
+/// always falls with the square.
+glm::vec3 power(const Import& import, const aiLight& source, double distance) {
   const glm::vec3 color = to_vec3(source.mColorDiffuse);
   if (import.gltf) return color;
   if (source.mType == aiLightSource_DIRECTIONAL) return color * static_cast<float>(pi);
-  const double falloff =
-      source.mAttenuationConstant + source.mAttenuationLinear * radius + source.mAttenuationQuadratic * radius * radius;
-  return color * static_cast<float>(pi * radius * radius / (falloff > 0.0 ? falloff : 1.0));
+  const double falloff = source.mAttenuationConstant + source.mAttenuationLinear * distance +
+                         source.mAttenuationQuadratic * distance * distance;
+  return color * static_cast<float>(pi * distance * distance / (falloff > 0.0 ? falloff : 1.0));
 }
 
 /// assimp keeps KHR_lights_punctual's range in the node's metadata.
@@ -60,11 +60,18 @@ float light_range(const Import& import, const aiLight& source) {
   return std::isfinite(range) && range > 0.0f ? range : 0.0f;
 }
 
-void import_light(Import& import, const aiLight& source, double radius) {
-  const glm::vec3 color = glm::max(power(import, source, radius), glm::vec3(0.0f));
-  if (!finite(color)) return;
+/// How far a light is from the middle of the scene, or a quarter of the scene's radius where it is nearer.
+double distance_to_scene(const Scene& scene, const Bounds& bounds, int light_node) {
+  const Node& node = scene.nodes[light_node];
+  const glm::dvec3 position(scene.nodes[node.parent].worldFromNode * glm::dvec4(node.translation, 1.0));
+  const double radius = std::max(0.5 * glm::length(bounds.extent()), 1e-6);
+  return std::clamp(glm::distance(position, bounds.center()), 0.25 * radius, radius);
+}
+
+void import_light(Import& import, const aiLight& source, const Bounds& bounds) {
   if (source.mType == aiLightSource_AMBIENT) {
-    import.scene.ambient = glm::max(to_vec3(source.mColorAmbient), to_vec3(source.mColorDiffuse));
+    const glm::vec3 ambient = glm::max(to_vec3(source.mColorAmbient), to_vec3(source.mColorDiffuse));
+    if (finite(ambient)) import.scene.ambient = glm::max(ambient, glm::vec3(0.0f));
     return;
   }
   Light light;
@@ -79,7 +86,6 @@ void import_light(Import& import, const aiLight& source, double radius) {
       light.kind = Light::Kind::point;  // an area light, seen from afar
   }
   light.name = source.mName.C_Str();
-  light.color = color;
   light.range = light_range(import, source);
   if (light.kind == Light::Kind::spot) {
     // glTF's cone angles are from the axis, and so are assimp's of glTF; elsewhere assimp has the whole cone.
@@ -89,7 +95,9 @@ void import_light(Import& import, const aiLight& source, double radius) {
     light.inner_angle = std::isfinite(inner) ? std::clamp(inner, 0.0f, light.outer_angle) : 0.0f;
   }
   light.node = add_aimed_node(import, source.mName, source.mPosition, source.mDirection, source.mUp);
-  if (light.node >= 0) import.scene.lights.push_back(std::move(light));
+  if (light.node < 0) return;
+  light.color = glm::max(power(import, source, distance_to_scene(import.scene, bounds, light.node)), glm::vec3(0.0f));
+  if (finite(light.color)) import.scene.lights.push_back(std::move(light));
 }
 
 }  // namespace
@@ -97,9 +105,9 @@ void import_light(Import& import, const aiLight& source, double radius) {
 void import_lights_and_cameras(Import& import) {
   // Positions are wanted for the scene's size, and nothing has moved to its place yet.
   set_time(import.scene, 0.0);
-  const double radius = 0.5 * glm::length(import.scene.bounds().extent());
+  const Bounds bounds = import.scene.bounds();
   for (unsigned i = 0; i < import.source.mNumLights; ++i) {
-    import_light(import, *import.source.mLights[i], std::max(radius, 1e-6));
+    import_light(import, *import.source.mLights[i], bounds);
   }
   for (unsigned i = 0; i < import.source.mNumCameras; ++i) {
     const aiCamera& source = *import.source.mCameras[i];
