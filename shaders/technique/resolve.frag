@@ -17,15 +17,18 @@ void main() {
   vec3 a = to_camera(instance, texelFetch(positions, int(corner.x)).xyz);
   vec3 b = to_camera(instance, texelFetch(positions, int(corner.y)).xyz);
   vec3 c = to_camera(instance, texelFetch(positions, int(corner.z)).xyz);
-  mat3 planes = mat3(cross(b, c), cross(c, a), cross(a, b));
+  // With n1 and n2 written by differences of vertices, and the sum as the triangle's normal, rounding grows with the
+  // triangle's distance over its size; with b x c it grows with the square of that, and small triangles fall apart.
+  vec3 ab = b - a, ac = c - a;
+  mat3 planes = mat3(cross(ab, ac), cross(ac, a), cross(a, ab));  // the sum, n1, n2
 
   PixelRay ray = camera_ray(gl_FragCoord.xy + pixel_offset);
-  vec3 inside = ray.direction * planes;
-  float sum = inside.x + inside.y + inside.z;
-  vec3 weight = inside / sum;
-  vec3 inside_dx = ray.dx * planes, inside_dy = ray.dy * planes;
-  vec3 weight_dx = (inside_dx - weight * (inside_dx.x + inside_dx.y + inside_dx.z)) / sum;
-  vec3 weight_dy = (inside_dy - weight * (inside_dy.x + inside_dy.y + inside_dy.z)) / sum;
+  vec3 inside = ray.direction * planes, inside_dx = ray.dx * planes, inside_dy = ray.dy * planes;
+  float sum = inside.x;
+  vec2 bc = inside.yz / sum;
+  vec2 bc_dx = (inside_dx.yz - bc * inside_dx.x) / sum, bc_dy = (inside_dy.yz - bc * inside_dy.x) / sum;
+  vec3 weight = vec3(1.0 - bc.x - bc.y, bc);
+  vec3 weight_dx = vec3(-bc_dx.x - bc_dx.y, bc_dx), weight_dy = vec3(-bc_dy.x - bc_dy.y, bc_dy);
   float volume = dot(a, planes[0]);
 
   uvec4 a_attributes = texelFetch(attributes, int(corner.x));
