@@ -134,7 +134,9 @@ class ImageBased : public Technique {
       const auto from_edge = [](const glm::dvec2& tangent) { return glm::clamp(tangent, -1.0, 1.0) + 1.0; };
       const glm::dvec2 first = glm::floor((from_edge(window.min) / texel - double(border)) / double(grid) + 1e-6);
       const glm::dvec2 last = glm::ceil((from_edge(window.max) / texel + double(border)) / double(grid) - 1e-6);
-      const glm::dvec2 min = first * (grid * texel) - 1.0, end = last * (grid * texel) - 1.0;
+      // Each pass samples the faces elsewhere, too: otherwise more samples would not smooth what the faces hold.
+      const glm::dvec2 shift = view.shift * texel - 1.0;
+      const glm::dvec2 min = first * (grid * texel) + shift, end = last * (grid * texel) + shift;
       const glm::dvec2 count = (last - first) * double(grid);
       largest = std::max({largest, count.x, count.y});
       if (largest > most) continue;
