@@ -224,6 +224,16 @@ TEST_F(SceneFileTest, TexturesLieWithTheirFirstRowAtVZero) {
   EXPECT_EQ(obj.materials[0].base_color, glm::vec4(1.0f)) << "black under a picture is an exporter's habit";
 }
 
+TEST_F(SceneFileTest, MapsThatAreNotDrawnAreSaid) {
+  write_tga("a.tga", 1, 1, {{1, 2, 3, 255}});
+  write("maps.mtl", "newmtl m\nmap_Kd a.tga\nmap_d holes.tga\nmap_bump bumps.tga\n");
+  ::testing::internal::CaptureStderr();
+  load_scene_file(write("maps.obj", "mtllib maps.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("1 opacity maps"), std::string::npos) << said;
+  EXPECT_NE(said.find("1 height maps"), std::string::npos) << said;
+}
+
 TEST_F(SceneFileTest, GltfMaterialsSayEverythingThemselves) {
   const auto material = [&](const std::string& json) {
     return load_scene_file(write_gltf(R"("extensionsUsed": ["KHR_materials_unlit"], "materials": [)" + json + "]"))

@@ -21,6 +21,7 @@ struct Repairs {
   size_t non_finite_transforms = 0;
   size_t second_uv_sets = 0;
   size_t height_maps = 0;
+  size_t opacity_maps = 0;
   size_t joints_without_node = 0;
   size_t channels_without_node = 0;
 };

@@ -206,6 +206,7 @@ void report(const Import& import) {
   say(repairs.non_finite_transforms, "transforms with NaN or infinity ignored");
   say(repairs.second_uv_sets, "textures drawn with the uvs of their material's first texture");
   say(repairs.height_maps, "height maps left out, only normal maps are drawn");
+  say(repairs.opacity_maps, "opacity maps left out, only the base colour's own alpha cuts out");
   say(repairs.joints_without_node, "joints without a node ignored");
   say(repairs.channels_without_node, "animated nodes that do not exist ignored");
   if (!message.empty()) warn(import.path.string() + ": " + message);

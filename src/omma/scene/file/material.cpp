@@ -160,6 +160,12 @@ int import_material(Import& import, unsigned source_index) {
     if (source.GetTextureCount(aiTextureType_HEIGHT) > 0 && material.normal_texture < 0) {
       ++import.repairs.height_maps;
     }
+    // A picture that is its own opacity map has an alpha channel, and import_alpha finds it.
+    aiString opacity, base;
+    source.Get(AI_MATKEY_TEXTURE_DIFFUSE(0), base);
+    if (source.Get(AI_MATKEY_TEXTURE_OPACITY(0), opacity) == AI_SUCCESS && opacity != base) {
+      ++import.repairs.opacity_maps;
+    }
     uv_channel = textures.uv_channel();
     import_colors(import, source, material);
     import_gloss(import, source, material);
