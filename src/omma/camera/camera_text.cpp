@@ -24,13 +24,16 @@ constexpr CameraParameterInfo common_parameters[] = {
      "With the others it fills the image as far as its formula goes"},
     {"f", "none", "focal length in pixels, instead of `fov_deg`"},
     {"fx, fy", "none", "horizontal and vertical focal length in pixels, instead of `f`"},
+    {"f_mm", "none", "focal length in millimetres, instead of `f`; needs `sensor_mm`"},
+    {"sensor_mm", "none",
+     "width in millimetres of the sensor behind the whole image; alone where a lens's formula is in millimetres"},
     {"cx, cy", "middle", "principal point in pixels from the image's top left corner"},
     {"width, height", "the size asked for",
      "pixels; the image that the other values are for. Another size of the same shape scales them"},
     {"max_angle_deg", "from `fit`", "degrees from the axis beyond which nothing is seen"},
 };
 
-constexpr const char* focal_names[] = {"f", "fx", "fy"};
+constexpr const char* focal_names[] = {"f", "fx", "fy", "f_mm", "sensor_mm"};
 
 struct FitName {
   const char* name;
@@ -79,6 +82,17 @@ class LensText {
       throw CommandError("{}={} is out of range; {} to {} is accepted", label(key), number, low, high);
     }
     return number;
+  }
+
+  double lens_parameter(const LensParameterInfo& parameter) const {
+    const std::vector<std::string> names = choices(parameter);
+    if (names.empty()) return number_within(parameter.name, parameter.min, parameter.max, parameter.default_value);
+    if (!has(parameter.name)) return parameter.default_value;
+    const auto found = std::ranges::find(names, value(parameter.name));
+    if (found == names.end()) {
+      throw CommandError("{}: {}", spec_.name, unknown_name(parameter.name, value(parameter.name), names));
+    }
+    return static_cast<double>(found - names.begin());
   }
 
   std::optional<ImageSize> size() const {
@@ -141,16 +155,33 @@ struct FovLimit {
   bool inclusive;
 };
 
+glm::dvec3 edge_direction(double fov_deg, bool along_height) {
+  const double half = 0.5 * fov_deg * radians_per_degree;
+  return along_height ? glm::dvec3(0.0, std::sin(half), std::cos(half))
+                      : glm::dvec3(std::sin(half), 0.0, std::cos(half));
+}
+
 FovLimit fov_limit(const Lens& lens, bool along_height) {
   const LensInfo& info = lens.model->info;
-  if (!info.radial && along_height) {
-    // Between the poles, if the lens shows them.
-    glm::dvec2 plane;
-    return {180.0, lens.model->project(lens.parameters, {0.0, 1.0, 0.0}, plane)};
+  if (info.radial) {
+    const double formula_deg = 2.0 * info.max_angle(lens.parameters) / radians_per_degree;
+    if (formula_deg < info.max_fov_deg - 1e-3) return {formula_deg, true};
+    return {info.max_fov_deg, info.max_fov_inclusive};
   }
-  const double formula_deg = 2.0 * info.max_angle(lens.parameters) / radians_per_degree;
-  if (formula_deg < info.max_fov_deg - 1e-3) return {formula_deg, true};
-  return {info.max_fov_deg, info.max_fov_inclusive};
+  const auto shown = [&](double fov_deg) {
+    glm::dvec2 plane;
+    return lens.model->project(lens.parameters, edge_direction(fov_deg, along_height), plane);
+  };
+  // Along the height between the poles, if the lens shows them.
+  const double most = along_height ? 180.0 : info.max_fov_deg;
+  if ((along_height || info.max_fov_inclusive) && shown(most)) return {most, true};
+  double inside = 0.0, outside = most;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (shown(middle) ? inside : outside) = middle;
+  }
+  if (inside < most - 1e-3) return {inside, true};
+  return {most, false};
 }
 
 // The focal length at which `fov_deg` spans the extent of the image that `fit` names.
@@ -158,12 +189,9 @@ double focal_from_fov(const LensText& text, const Lens& lens, Fit fit, double fo
   const bool upright = lens.size.height > lens.size.width;
   const bool along_height = fit == Fit::height || (fit == Fit::shorter && !upright) || (fit == Fit::longer && upright);
   const FovLimit limit = fov_limit(lens, along_height);
-  const double half = 0.5 * fov_deg * radians_per_degree;
-  const glm::dvec3 edge =
-      along_height ? glm::dvec3(0.0, std::sin(half), std::cos(half)) : glm::dvec3(std::sin(half), 0.0, std::cos(half));
   glm::dvec2 plane;
   const bool within = fov_deg >= min_fov_deg && (fov_deg < limit.deg || (limit.inclusive && fov_deg == limit.deg));
-  if (!within || !lens.model->project(lens.parameters, edge, plane)) {
+  if (!within || !lens.model->project(lens.parameters, edge_direction(fov_deg, along_height), plane)) {
     throw CommandError("{}={} is out of range; {} to {}{} is accepted{}", text.label("fov_deg"), fov_deg, min_fov_deg,
                        limit.inclusive ? "" : "less than ", limit.deg,
                        lens.model->info.radial ? "" : fmt::format(" along the {}", along_height ? "height" : "width"));
@@ -171,27 +199,67 @@ double focal_from_fov(const LensText& text, const Lens& lens, Fit fit, double fo
   return half_extent(fit, lens.size) / (along_height ? plane.y : plane.x);
 }
 
-// Sets focal lengths from whichever of `f`, `fx` and `fy`, or `fov_deg` is there, and how far the lens sees.
-void set_focal_and_angle(const LensText& text, Lens& lens) {
-  const LensInfo& info = lens.model->info;
-  const double limit = info.max_angle(lens.parameters);
-  lens.parameters.max_angle = limit;
-
-  const auto* focal_name = std::ranges::find_if(focal_names, [&](const char* key) { return text.has(key); });
-  if (focal_name != std::end(focal_names)) {
-    for (const char* other : {"fov_deg", "fit"}) {
-      if (text.has(other)) {
-        throw CommandError("{} and {} say the same thing twice; give one of them", text.label(*focal_name), other);
+// Pixels per unit of the plane, from whichever of `f`, `fx` and `fy`, `f_mm` and `sensor_mm` is there.
+glm::dvec2 given_focal(const LensText& text, const Lens& lens) {
+  const auto refuse_beside = [&](const char* key, std::initializer_list<const char*> others) {
+    for (const char* other : others) {
+      if (text.has(key) && text.has(other)) {
+        throw CommandError("{} and {} say the same thing twice; give one of them", text.label(key), other);
       }
     }
-    if (text.has("f") && (text.has("fx") || text.has("fy"))) {
-      throw CommandError("{} stands for both fx and fy; give f alone, or fx and fy", text.label("f"));
+  };
+  for (const char* key : focal_names) refuse_beside(key, {"fov_deg", "fit"});
+  refuse_beside("f_mm", {"f", "fx", "fy"});
+  refuse_beside("sensor_mm", {"f", "fx", "fy"});
+  if (text.has("f") && (text.has("fx") || text.has("fy"))) {
+    throw CommandError("{} stands for both fx and fy; give f alone, or fx and fy", text.label("f"));
+  }
+  if (text.has("fx") != text.has("fy")) {
+    throw CommandError("{} is missing: give fx and fy, or f for both", text.label(text.has("fx") ? "fy" : "fx"));
+  }
+  const auto positive = [&](const char* key) { return text.number_within(key, 1e-3, 1e9, 0.0); };
+  if (text.has("fx")) return {positive("fx"), positive("fy")};
+  if (text.has("f")) return glm::dvec2(positive("f"));
+
+  const LensInfo& info = lens.model->info;
+  if (info.plane_in_mm && text.has("f_mm")) {
+    throw CommandError("{} has no place: the formula of {} is in millimetres; give sensor_mm alone", text.label("f_mm"),
+                       info.name);
+  }
+  for (const char* key : {"f_mm", "sensor_mm"}) {
+    if (!text.has(key) && !(info.plane_in_mm && std::string_view(key) == "f_mm")) {
+      throw CommandError("{} is missing: f_mm and sensor_mm go together", text.label(key));
     }
-    if (!text.has("f") && text.has("fx") != text.has("fy")) {
-      throw CommandError("{} is missing: give fx and fy, or f for both", text.label(text.has("fx") ? "fy" : "fx"));
+  }
+  const double focal_mm = info.plane_in_mm ? 1.0 : positive("f_mm");
+  return glm::dvec2(focal_mm * lens.size.width / positive("sensor_mm"));
+}
+
+// Lays a part of the plane over the whole image.
+void fill_image(const LensText& text, const PlaneRectangle& frame, Lens& lens) {
+  for (const char* key : {"fov_deg", "fit"}) {
+    if (text.has(key)) {
+      throw CommandError("{} has no place: what {} shows fills the image, whatever its shape; leave it away",
+                         text.label(key), lens.model->info.name);
     }
-    const auto focal = [&](const char* key) { return text.number_within(text.has("f") ? "f" : key, 1e-3, 1e9, 0.0); };
-    lens.focal = {focal("fx"), focal("fy")};
+  }
+  lens.focal = glm::dvec2(lens.size.width, lens.size.height) / (frame.max - frame.min);
+  lens.centre = -frame.min * lens.focal;
+}
+
+// Sets focal lengths from whatever gives them, `fov_deg` included, and how far the lens sees.
+void set_focal_and_angle(const LensText& text, Lens& lens) {
+  const LensInfo& info = lens.model->info;
+  const double limit = lens.parameters.max_angle;
+  if (!(limit > 0.0)) {
+    throw CommandError("{}: with these parameters the image's radius does not grow with the angle from the axis ({})",
+                       info.name, info.formula);
+  }
+
+  if (std::ranges::any_of(focal_names, [&](const char* key) { return text.has(key); })) {
+    lens.focal = given_focal(text, lens);
+  } else if (const auto frame = info.frame ? info.frame(lens.parameters) : std::nullopt) {
+    fill_image(text, *frame, lens);
   } else {
     if (!text.has("fov_deg") && info.default_fov_deg == 0) {
       throw CommandError("{} is missing, and so are f, fx and fy: a calibrated lens has no default; for example {}",
@@ -230,20 +298,33 @@ void rescale(const LensText& text, Lens& lens, const ImageSize& size) {
   lens.size = size;
 }
 
+// Adds what a preset says where the text says nothing.
+void apply_preset(const LensPreset& preset, Spec& spec) {
+  const auto given = [&](const char* key) { return spec.values.contains(key); };
+  for (const auto& [key, value] : parse_spec(fmt::format("{}:{}", preset.name, preset.settings)).values) {
+    if (key == "fov_deg" && std::ranges::any_of(focal_names, given)) continue;
+    spec.values.emplace(key, value);
+  }
+}
+
 Camera make_lens_camera(const LensModel& model, Spec spec, std::optional<ImageSize> size) {
   const std::string name = spec.name;
+  if (const LensPreset* preset = find_lens_preset(name)) apply_preset(*preset, spec);
   const LensText text(model, std::move(spec));
   const std::optional<ImageSize> own_size = text.size();
 
   Lens lens;
   lens.model = &model;
   lens.size = own_size ? *own_size : size.value_or(default_size);
-  for (size_t i = 0; i < model.info.parameters.size(); ++i) {
-    const LensParameterInfo& parameter = model.info.parameters[i];
-    lens.parameters.k[i] = text.number_within(parameter.name, parameter.min, parameter.max, parameter.default_value);
+  std::vector<double> values;
+  for (const LensParameterInfo& parameter : model.info.parameters) values.push_back(text.lens_parameter(parameter));
+  lens.parameters = lens_parameters(model.info, values);
+  if (const char* contradiction = model.info.contradiction ? model.info.contradiction(lens.parameters) : nullptr) {
+    throw CommandError("{}: {}", name, contradiction);
   }
+  lens.centre = {0.5 * lens.size.width, 0.5 * lens.size.height};
   set_focal_and_angle(text, lens);
-  lens.centre = {text.number("cx").value_or(0.5 * lens.size.width), text.number("cy").value_or(0.5 * lens.size.height)};
+  lens.centre = {text.number("cx").value_or(lens.centre.x), text.number("cy").value_or(lens.centre.y)};
   if (size && *size != lens.size) rescale(text, lens, *size);
 
   Camera camera(std::move(lens));
@@ -303,9 +384,12 @@ std::string to_text(const Camera& camera) {
     text += fmt::format(",max_angle_deg={}", lens->parameters.max_angle / radians_per_degree);
   }
   for (size_t i = 0; i < info.parameters.size(); ++i) {
-    if (lens->parameters.k[i] != info.parameters[i].default_value) {
-      text += fmt::format(",{}={}", info.parameters[i].name, lens->parameters.k[i]);
-    }
+    const LensParameterInfo& parameter = info.parameters[i];
+    const double value = lens->parameters.k[i];
+    if (value == parameter.default_value) continue;
+    const std::vector<std::string> names = choices(parameter);
+    text += names.empty() ? fmt::format(",{}={}", parameter.name, value)
+                          : fmt::format(",{}={}", parameter.name, names.at(static_cast<size_t>(value)));
   }
   return text;
 }

@@ -33,6 +33,7 @@ using namespace glm;
 using real = double;
 using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
 using Params = const LensParameters&;
 constexpr real lens_epsilon = std::numeric_limits<real>::epsilon();
 #include "all_lenses.inc"
@@ -43,6 +44,7 @@ using namespace glm;
 using real = float;
 using vec2 = glm::vec2;
 using vec3 = glm::vec3;
+using vec4 = glm::vec4;
 using Params = const FloatParameters&;
 constexpr real lens_epsilon = std::numeric_limits<real>::epsilon();
 #include "all_lenses.inc"
@@ -61,6 +63,18 @@ constexpr LensModel models[] = {
 #undef OMMA_LENS
 };
 
+// The parts of "a, b, c".
+std::vector<std::string> names_in(const char* list) {
+  std::vector<std::string> names = split(list, ',');
+  for (std::string& name : names) name.erase(0, name.find_first_not_of(' '));
+  return names;
+}
+
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::ranges::equal(a, b, {}, lower, lower);
+}
+
 }  // namespace
 
 const char* fit_name(Fit fit) {
@@ -70,16 +84,38 @@ const char* fit_name(Fit fit) {
 
 std::span<const LensModel> lens_models() { return models; }
 
-std::vector<std::string> other_names(const LensInfo& info) {
-  std::vector<std::string> names = split(info.also, ',');
-  for (std::string& name : names) name.erase(0, name.find_first_not_of(' '));
-  return names;
+LensParameters lens_parameters(const LensInfo& info, std::span<const double> values) {
+  LensParameters parameters;
+  for (size_t i = 0; i < info.parameters.size(); ++i) {
+    parameters.k[i] = i < values.size() ? values[i] : info.parameters[i].default_value;
+  }
+  if (info.derive) info.derive(parameters);
+  parameters.max_angle = info.max_angle(parameters);
+  return parameters;
+}
+
+std::vector<std::string> other_names(const LensInfo& info) { return names_in(info.also); }
+
+std::vector<std::string> choices(const LensParameterInfo& parameter) {
+  return parameter.choices ? names_in(parameter.choices) : std::vector<std::string>();
+}
+
+const LensPreset* find_lens_preset(std::string_view name) {
+  for (const LensModel& model : models) {
+    for (const LensPreset& preset : model.info.presets) {
+      if (equal_but_for_case(name, preset.name)) return &preset;
+    }
+  }
+  return nullptr;
 }
 
 const LensModel* find_lens_model(std::string_view name) {
   for (const LensModel& model : models) {
-    const std::vector<std::string> others = other_names(model.info);
-    if (name == model.info.name || std::ranges::find(others, name) != others.end()) return &model;
+    const auto is_name = [&](std::string_view other) { return equal_but_for_case(name, other); };
+    if (is_name(model.info.name) || std::ranges::any_of(other_names(model.info), is_name) ||
+        std::ranges::any_of(model.info.presets, is_name, &LensPreset::name)) {
+      return &model;
+    }
   }
   return nullptr;
 }

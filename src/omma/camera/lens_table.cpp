@@ -11,11 +11,30 @@ namespace omma {
 namespace {
 
 std::string fov_range(const LensInfo& info) {
+  if (info.max_fov_deg == 0) return "fills the image";
   return fmt::format("{}{}°", info.max_fov_inclusive ? "up to " : "below ", info.max_fov_deg);
 }
 
 std::string default_fov(const LensInfo& info) {
   return info.default_fov_deg == 0 ? "none" : fmt::format("{}°", info.default_fov_deg);
+}
+
+// "a, b, c (k=1)": other names, and those that set something with what they set.
+std::string all_names(const LensInfo& info) {
+  std::string text = info.also;
+  for (const LensPreset& preset : info.presets) {
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", preset.name, preset.settings);
+  }
+  return text;
+}
+
+std::string value_range(const LensParameterInfo& parameter) {
+  return parameter.choices ? parameter.choices : fmt::format("{} to {}", parameter.min, parameter.max);
+}
+
+std::string default_value(const LensParameterInfo& parameter) {
+  return parameter.choices ? choices(parameter).at(static_cast<size_t>(parameter.default_value))
+                           : fmt::format("{}", parameter.default_value);
 }
 
 std::vector<const LensInfo*> lenses_of(const std::string& group) {
@@ -45,7 +64,7 @@ std::string lens_table_markdown() {
         "|---|---|---|---|---|---|---|\n",
         text.empty() ? "" : "\n", heading(group));
     for (const LensInfo* info : lenses) {
-      text += fmt::format("| `{}` | {} | {} | {} | {} | `{}` | {} |\n", info->name, info->also, info->formula,
+      text += fmt::format("| `{}` | {} | {} | {} | {} | `{}` | {} |\n", info->name, all_names(*info), info->formula,
                           fov_range(*info), default_fov(*info), fit_name(info->default_fit), info->source);
     }
     for (const LensInfo* info : lenses) {
@@ -53,8 +72,8 @@ std::string lens_table_markdown() {
       text += fmt::format("\nParameters of `{}`, for example `{}`:\n\n", info->name, info->example);
       text += "| parameter | default | range | meaning |\n|---|---|---|---|\n";
       for (const LensParameterInfo& parameter : info->parameters) {
-        text += fmt::format("| `{}` | {} | {} to {} | {} |\n", parameter.name, parameter.default_value, parameter.min,
-                            parameter.max, parameter.description);
+        text += fmt::format("| `{}` | {} | {} | {} |\n", parameter.name, default_value(parameter),
+                            value_range(parameter), parameter.description);
       }
     }
   }
@@ -72,10 +91,11 @@ std::string lens_table_text() {
     if (!lenses.empty()) text += fmt::format("{}\n\n", heading(group));
     for (const LensInfo* info : lenses) {
       text += fmt::format("{}\n  also     {}\n  formula  {}\n  fov_deg  {}, default {}, spans the {}\n", info->name,
-                          info->also, info->formula, fov_range(*info), default_fov(*info), fit_name(info->default_fit));
+                          all_names(*info), info->formula, fov_range(*info), default_fov(*info),
+                          fit_name(info->default_fit));
       for (const LensParameterInfo& parameter : info->parameters) {
-        text += fmt::format("  {:<8} {} ({} to {}, default {})\n", parameter.name, parameter.description, parameter.min,
-                            parameter.max, parameter.default_value);
+        text += fmt::format("  {:<8} {} ({}, default {})\n", parameter.name, parameter.description,
+                            value_range(parameter), default_value(parameter));
       }
       text += fmt::format("  example  {}\n  source   {}\n\n", info->example, info->source);
     }

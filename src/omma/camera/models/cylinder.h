@@ -4,9 +4,9 @@
 inline constexpr LensInfo cylinder_info = {
     .name = "cylinder",
     .group = "panoramic",
-    .also = "cylindrical",
+    .also = "cylindrical, central_cylindrical, panorama",
     .formula = "x = longitude, y = tan(latitude)",
-    .source = "Snyder 1987, Map Projections, chapter 14 (central cylindrical)",
+    .source = "Snyder 1987, Map Projections, chapter 14 (central cylindrical); Hugin Cylindrical (1)",
     .example = "cylinder:fov_deg=360",
     .default_fov_deg = 360,
     .max_fov_deg = 360,
@@ -22,10 +22,10 @@ LENS_FUNCTION bool cylinder_project(Params params, vec3 direction, OUT(vec2) pla
   real rho = length(vec2(direction.x, direction.z));
   bool on_cylinder = abs(direction.y) < real(1e6) * rho;
   plane = vec2(longitude_of(direction), on_cylinder ? direction.y / rho : real(0.0));
-  return on_cylinder && angle_from_axis(direction) <= params.max_angle;
+  return on_cylinder && within_angle(params, direction);
 }
 
 LENS_FUNCTION bool cylinder_unproject(Params params, vec2 plane, OUT(vec3) direction) {
   direction = normalize(vec3(sin(plane.x), plane.y, cos(plane.x)));
-  return abs(plane.x) <= lens_pi && abs(plane.y) < real(1e6) && angle_from_axis(direction) <= params.max_angle;
+  return abs(plane.x) <= lens_pi && abs(plane.y) < real(1e6) && within_angle(params, direction);
 }

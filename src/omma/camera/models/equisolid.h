@@ -1,5 +1,11 @@
 // Equisolid-angle fisheye, Lambert's azimuthal equal-area projection: equal solid angles get equal areas of the image.
+// At 360 degrees it is what a mirror ball shows, or ffmpeg's `ball` (a photograph of a real ball is also mirrored).
 #ifdef __cplusplus
+inline constexpr LensPreset equisolid_presets[] = {
+    {"mirror_ball", "fov_deg=360"},
+    {"ball", "fov_deg=360"},
+};
+
 inline constexpr LensInfo equisolid_info = {
     .name = "equisolid",
     .group = "radial",
@@ -14,6 +20,7 @@ inline constexpr LensInfo equisolid_info = {
     .radial = true,
     .parameters = {},
     .max_angle = [](const LensParameters&) { return pi; },
+    .presets = equisolid_presets,
 };
 #endif
 

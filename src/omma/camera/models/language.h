@@ -32,3 +32,14 @@ LENS_FUNCTION real longitude_of(vec3 direction) {
   bool pole = direction.x == real(0.0) && direction.z == real(0.0);
   return pole ? real(0.0) : atan(direction.x, direction.z);
 }
+
+// Radians below the horizon, -pi/2 to pi/2.
+LENS_FUNCTION real latitude_of(vec3 direction) { return atan(direction.y, length(vec2(direction.x, direction.z))); }
+
+LENS_FUNCTION vec3 direction_at(real longitude, real latitude) {
+  return vec3(sin(longitude) * cos(latitude), sin(latitude), cos(longitude) * cos(latitude));
+}
+
+LENS_FUNCTION bool within_angle(Params params, vec3 direction) {
+  return angle_from_axis(direction) <= params.max_angle;
+}
