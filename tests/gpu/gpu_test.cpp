@@ -1,0 +1,97 @@
+#include "tests/gpu/gpu_test.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "omma/base/error.h"
+#include "omma/camera/ray_bundle.h"
+#include "omma/image/compare.h"
+#include "omma/math/pose.h"
+#include "omma/technique/registry.h"
+
+namespace omma {
+
+Camera small_camera(const LensModel& model, int side) {
+  const ImageSize full = make_camera(model.info.example).size();
+  const double scale = double(side) / std::max(full.width, full.height);
+  return make_camera(model.info.example,
+                     ImageSize{int(std::lround(full.width * scale)), int(std::lround(full.height * scale))});
+}
+
+Camera as_ray_map(const Camera& camera) { return Camera(rays_of(camera)); }
+
+Camera wavy_ray_map(int side) {
+  RayMap map{.size = {side, 3 * side / 4}, .directions = {}, .source = {}};
+  for (int y = 0; y < map.size.height; ++y) {
+    for (int x = 0; x < map.size.width; ++x) {
+      const double u = (x + 0.5) / side - 0.5, v = (y + 0.5) / side - 0.375;
+      const double longitude = 3.1 * u + 0.1 * std::sin(9.0 * v), latitude = 0.3 - 2.2 * v + 0.08 * std::sin(11.0 * u);
+      const bool hole = std::hypot(u - 0.2, v + 0.1) < 0.06;
+      map.directions.push_back(
+          hole ? glm::vec3(0.0f)
+               : glm::vec3(glm::normalize(glm::dvec3(std::sin(longitude) * std::cos(latitude), std::sin(latitude),
+                                                     -std::cos(longitude) * std::cos(latitude)))));
+    }
+  }
+  return Camera(std::move(map));
+}
+
+std::vector<NamedCamera> all_cameras(int side) {
+  std::vector<NamedCamera> cameras;
+  for (const LensModel& model : lens_models()) cameras.push_back({model.info.name, small_camera(model, side)});
+  cameras.push_back({"ray map", wavy_ray_map(side)});
+  return cameras;
+}
+
+std::vector<std::string> technique_names() {
+  std::vector<std::string> names;
+  for (const TechniqueInfo& technique : techniques()) {
+    if (technique.variants.empty()) names.push_back(technique.name);
+    for (const VariantInfo& variant : technique.variants) names.push_back(technique.name + ":" + variant.name);
+  }
+  return names;
+}
+
+bool can_draw(const std::string& technique, const Camera& camera) {
+  try {
+    choose_technique(technique, camera);
+    return true;
+  } catch (const CommandError&) {
+    return false;
+  }
+}
+
+glm::dmat4 default_pose(const Scene& scene) { return look_at_worldFromCamera(scene.default_from, scene.default_to); }
+
+std::string test_name(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return text;
+}
+
+IntImage GpuTest::draw_ids(const Camera& camera, const glm::dmat4& pose, const std::string& technique) {
+  return std::get<IntImage>(draw(camera, pose, {Channel::id}, {.technique = technique}).at(Channel::id));
+}
+
+FloatImage GpuTest::draw_color(const Camera& camera, const glm::dmat4& pose, const RenderOptions& options) {
+  return std::get<FloatImage>(draw(camera, pose, {Channel::color}, options).at(Channel::color));
+}
+
+std::map<Channel, Image> GpuTest::draw(const Camera& camera, const glm::dmat4& pose,
+                                       std::initializer_list<Channel> channels, const RenderOptions& options) {
+  return renderer().render(camera, pose, std::vector<Channel>(channels), options);
+}
+
+double share_of_differences(const IntImage& a, const IntImage& b) {
+  return compare_images(a, b, Scale::raw).mismatch_share;
+}
+
+double psnr(const FloatImage& a, const FloatImage& b) { return compare_images(a, b, Scale::display).psnr.value(); }
+
+double largest_difference(const FloatImage& a, const FloatImage& b) {
+  return compare_images(a, b, Scale::raw).max.value();
+}
+
+}  // namespace omma

@@ -1,0 +1,67 @@
+// What all tests that draw share: one renderer for a suite, every camera, every technique.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "omma/camera/camera.h"
+#include "omma/scene/scene.h"
+#include "omma/technique/renderer.h"
+
+namespace omma {
+
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+};
+
+/// The lens's own example, its longer side scaled to `side` pixels.
+Camera small_camera(const LensModel& model, int side);
+
+/// The rays of a lens, measured: no formula stands behind them any more.
+Camera as_ray_map(const Camera& camera);
+
+/// A ray map that no lens makes: tilted, wavy, with a hole.
+Camera wavy_ray_map(int side);
+
+/// Every lens and a ray map, `side` pixels on the longer side.
+std::vector<NamedCamera> all_cameras(int side);
+
+/// Every technique in every variant, as render takes it.
+std::vector<std::string> technique_names();
+bool can_draw(const std::string& technique, const Camera& camera);
+
+/// Where the scene says to stand.
+glm::dmat4 default_pose(const Scene& scene);
+
+/// A name that GoogleTest accepts.
+std::string test_name(std::string text);
+
+class GpuTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { renderer_ = std::make_unique<Renderer>(); }
+  static void TearDownTestSuite() { renderer_.reset(); }
+
+  static Renderer& renderer() { return *renderer_; }
+  static IntImage draw_ids(const Camera& camera, const glm::dmat4& pose, const std::string& technique);
+  static FloatImage draw_color(const Camera& camera, const glm::dmat4& pose, const RenderOptions& options);
+  static std::map<Channel, Image> draw(const Camera& camera, const glm::dmat4& pose,
+                                       std::initializer_list<Channel> channels, const RenderOptions& options);
+
+ private:
+  static inline std::unique_ptr<Renderer> renderer_;
+};
+
+/// Share of pixels whose numbers differ.
+double share_of_differences(const IntImage& a, const IntImage& b);
+/// Decibels, as a screen shows the pictures.
+double psnr(const FloatImage& a, const FloatImage& b);
+/// Largest |a - b| over all components.
+double largest_difference(const FloatImage& a, const FloatImage& b);
+
+}  // namespace omma
