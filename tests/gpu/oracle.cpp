@@ -33,9 +33,8 @@ Oracle::Oracle(const Scene& scene, const glm::dmat4& worldFromCamera)
       glm::dmat3 planes(glm::cross(v[1], v[2]), glm::cross(v[2], v[0]), glm::cross(v[0], v[1]));
       const double volume = glm::dot(v[0], planes[0]);
       if (volume < 0.0) planes = -planes;
-      const double near = std::min({glm::length(v[0]), glm::length(v[1]), glm::length(v[2])});
-      triangles_.push_back({planes, std::abs(volume), near, instance.first_triangle + uint32_t(t), uint32_t(i),
-                            culled || volume == 0.0});
+      triangles_.push_back(
+          {planes, std::abs(volume), instance.first_triangle + uint32_t(t), uint32_t(i), culled || volume == 0.0});
     }
   }
 }
@@ -66,16 +65,12 @@ std::optional<Oracle::Hit> Oracle::meet(uint32_t triangle, const glm::dvec3& dir
   return meet(triangles_[triangle], direction);
 }
 
-bool Oracle::may_graze(uint32_t id, const glm::dvec3& direction, double angle) const {
-  const Triangle& triangle = triangles_.at(id);
-  int on_edges = 0;
+bool Oracle::ends_within(uint32_t triangle, const glm::dvec3& direction, double angle) const {
+  const glm::dmat3& planes = triangles_.at(triangle).planes;
   for (int e = 0; e < 3; ++e) {
-    const double off = glm::dot(triangle.planes[e], direction) / glm::length(triangle.planes[e]);
-    if (off < -angle) return false;
-    on_edges += off <= angle;
+    if (std::abs(glm::dot(planes[e], direction)) <= angle * glm::length(planes[e])) return true;
   }
-  const auto first = nearest(direction);
-  return on_edges >= 2 && (!first || triangle.nearest <= first->distance);
+  return false;
 }
 
 const glm::uvec3& Oracle::corners(const Hit& hit) const {
@@ -146,35 +141,42 @@ bool ties(const Oracle& oracle, const Camera& camera, const glm::dvec2& pixel, i
   return first && other && other->distance - first->distance <= 1e-5 * first->distance;
 }
 
-Match match(const Oracle& oracle, const Camera& camera, const glm::dvec2& pixel, int32_t id, double radius) {
+/// The triangle is on a ray near the pixel, behind one that ends within the radius.
+bool shows_through(const Oracle& oracle, const Camera& camera, const glm::dvec2& pixel, const glm::dvec2& near_pixel,
+                   int32_t id, double radius) {
+  const auto ray = camera.unproject(pixel), near_ray = camera.unproject(near_pixel),
+             beside = camera.unproject(pixel + glm::dvec2(radius, 0.0));
+  const int32_t first = first_id(oracle, camera, pixel);
+  if (!ray || !near_ray || !beside || first < 0 || id < 0) return false;
+  return oracle.meet(uint32_t(id), near_ray->direction) &&
+         oracle.ends_within(uint32_t(first), ray->direction, glm::distance(ray->direction, beside->direction));
+}
+
+Match match(const Oracle& oracle, const Camera& camera, const glm::dvec2& pixel, int32_t id, const Forgiven& forgiven) {
   if (first_id(oracle, camera, pixel) == id) return Match::exact;
   Match best = Match::wrong;
   // Circles within circles: a triangle seen edge on may be thinner than the radius.
   for (const double share : {1.0, 0.5, 0.25, 0.0}) {
     for (int i = 0; i < 16; ++i) {
       const double angle = i * glm::pi<double>() / 8.0;
-      const glm::dvec2 beside = pixel + share * radius * glm::dvec2(std::cos(angle), std::sin(angle));
+      const glm::dvec2 beside = pixel + share * forgiven.radius * glm::dvec2(std::cos(angle), std::sin(angle));
       if (first_id(oracle, camera, beside) == id) return Match::edge;
+      if (forgiven.cracks && shows_through(oracle, camera, pixel, beside, id, forgiven.radius)) return Match::edge;
       if (ties(oracle, camera, beside, id)) best = Match::tie;
     }
-  }
-  const auto ray = camera.unproject(pixel), beside = camera.unproject(pixel + glm::dvec2(radius, 0.0));
-  if (best == Match::wrong && ray && beside && id >= 0 &&
-      oracle.may_graze(uint32_t(id), ray->direction, glm::distance(ray->direction, beside->direction))) {
-    return Match::edge;
   }
   return best;
 }
 
 }  // namespace
 
-Verdict judge(const Oracle& oracle, const Camera& camera, const IntImage& ids, double radius) {
+Verdict judge(const Oracle& oracle, const Camera& camera, const IntImage& ids, const Forgiven& forgiven) {
   Verdict verdict;
   for (int y = 0; y < ids.size.height; ++y) {
     for (int x = 0; x < ids.size.width; ++x) {
       const glm::dvec2 pixel(x + 0.5, y + 0.5);
       const int32_t id = *ids.at(x, y);
-      const Match found = match(oracle, camera, pixel, id, radius);
+      const Match found = match(oracle, camera, pixel, id, forgiven);
       ++verdict.pixels;
       verdict.hits += id >= 0;
       verdict.edges += found == Match::edge;

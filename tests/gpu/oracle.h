@@ -29,9 +29,8 @@ class Oracle {
   /// One triangle on a ray, whatever is before it.
   std::optional<Hit> meet(uint32_t triangle, const glm::dvec3& direction) const;
 
-  /// True where a triangle seen edge on, whichever way it faces, is within `angle` (radians) of a ray and nothing
-  /// is before it: rounding its vertices may show it.
-  bool may_graze(uint32_t triangle, const glm::dvec3& direction, double angle) const;
+  /// True where one of the triangle's edges is within `angle` (radians) of a ray.
+  bool ends_within(uint32_t triangle, const glm::dvec3& direction, double angle) const;
 
   /// Interpolated, in the world, on the camera's side.
   glm::dvec3 normal(const Hit& hit) const;
@@ -45,7 +44,6 @@ class Oracle {
   struct Triangle {
     glm::dmat3 planes;  ///< b x c, c x a, a x b, turned so that rays inside are positive
     double volume;      ///< |det(a, b, c)|
-    double nearest;     ///< metres, of its corners
     uint32_t id, instance;
     bool culled;  ///< it faces away
   };
@@ -66,7 +64,12 @@ struct Verdict {
   std::string first_wrong;
 };
 
-/// `radius` in pixels.
-Verdict judge(const Oracle& oracle, const Camera& camera, const IntImage& ids, double radius);
+/// What is forgiven beside an edge.
+struct Forgiven {
+  double radius;        ///< pixels
+  bool cracks = false;  ///< what is behind an edge, too: rounded vertices open cracks where edges meet at a T
+};
+
+Verdict judge(const Oracle& oracle, const Camera& camera, const IntImage& ids, const Forgiven& forgiven);
 
 }  // namespace omma

@@ -113,7 +113,7 @@ TEST_P(RaycastBruteForceTest, EveryChannelIsRightThroughEveryCamera) {
                                {Channel::id, Channel::distance, Channel::z, Channel::normal, Channel::position,
                                 Channel::uv, Channel::object, Channel::material},
                                {.technique = "raycast"});
-    const Verdict verdict = judge(oracle, camera, std::get<IntImage>(pictures.at(Channel::id)), 1e-3);
+    const Verdict verdict = judge(oracle, camera, std::get<IntImage>(pictures.at(Channel::id)), {.radius = 1e-3});
     EXPECT_EQ(verdict.wrong, 0u) << verdict.first_wrong;
     EXPECT_GT(verdict.hits, verdict.pixels / 4);
     total.hits += verdict.hits;

@@ -45,7 +45,9 @@ TEST_P(TechniquesTest, DrawsRealScenesAsRaycastDoes) {
       least_psnr = std::min(least_psnr, decibels);
       if (info_of(GetParam()).exact && is_opaque(scene)) {
         // Drivers snap vertices to 1/256 px, which moves an edge by up to 1/128 px.
-        const Verdict verdict = judge(Oracle(scene, pose), camera, ids, 1.0 / 128.0);
+        const Verdict verdict = judge(Oracle(scene, pose), camera, ids, {.radius = 1.0 / 128.0, .cracks = true});
+        std::cout << fmt::format("{} of {} pixels at an edge, {} ties\n", verdict.edges, verdict.pixels, verdict.ties);
+        EXPECT_LT(verdict.edges + verdict.ties, verdict.pixels / 500);
         EXPECT_EQ(verdict.wrong, 0u) << verdict.first_wrong;
       }
     }
