@@ -17,6 +17,17 @@ size_t face_of(const glm::vec3& d) {
   return d.z > 0.0f ? 4 : 5;
 }
 
+/// The ray nearest to the end of the image between a pixel that has one and its neighbour that has none: some lenses
+/// turn through many degrees there.
+glm::vec3 last_ray(const Camera& camera, const glm::dvec2& pixel, const glm::dvec2& step) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 12; ++i) {
+    const double middle = 0.5 * (low + high);
+    (camera.unproject(pixel + middle * step) ? low : high) = middle;
+  }
+  return camera.unproject(pixel + low * step)->direction;
+}
+
 }  // namespace
 
 const std::array<glm::dmat3, 6> faceFromCamera{
@@ -26,14 +37,29 @@ const std::array<glm::dmat3, 6> faceFromCamera{
 
 std::array<FaceWindow, 6> seen_windows(const Camera& camera, const PixelRect& region) {
   std::array<FaceWindow, 6> windows;
-  // One pixel more all around: shifted samples lie between pixel centres.
-  const RayMap rays = rays_of(camera, {region.x0 - 1, region.y0 - 1, region.x1 + 1, region.y1 + 1});
-  for (const glm::vec3& direction : rays.directions) {
-    if (direction == glm::vec3(0.0f)) continue;
+  const auto add = [&windows](const glm::vec3& direction) {
     const size_t f = face_of(direction);
     const glm::dvec3 p = faceFromCamera[f] * glm::dvec3(direction);
     windows[f].min = glm::min(windows[f].min, glm::dvec2(p) / p.z);
     windows[f].max = glm::max(windows[f].max, glm::dvec2(p) / p.z);
+  };
+  // One pixel more all around: shifted samples lie between pixel centres.
+  const PixelRect around{region.x0 - 1, region.y0 - 1, region.x1 + 1, region.y1 + 1};
+  const RayMap rays = rays_of(camera, around);
+  const auto at = [&](int x, int y) {
+    return rays.directions[size_t(y - around.y0) * size_t(around.width()) + size_t(x - around.x0)];
+  };
+  const glm::vec3 no_ray(0.0f);
+  for (int y = around.y0; y < around.y1; ++y) {
+    for (int x = around.x0; x < around.x1; ++x) {
+      if (at(x, y) == no_ray) continue;
+      add(at(x, y));
+      for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+        const glm::ivec2 next = glm::ivec2(x, y) + step;
+        const bool inside = next.x >= around.x0 && next.x < around.x1 && next.y >= around.y0 && next.y < around.y1;
+        if (inside && at(next.x, next.y) == no_ray) add(last_ray(camera, glm::dvec2(x, y) + 0.5, step));
+      }
+    }
   }
   return windows;
 }
