@@ -20,7 +20,7 @@ struct FloatParameters {
   std::array<float, LensParameters::max_count> k{};
   float max_angle = 0.0F;
 
-  explicit FloatParameters(const LensParameters& parameters) : max_angle(static_cast<float>(parameters.max_angle)) {
+  FloatParameters(const LensParameters& parameters) : max_angle(static_cast<float>(parameters.max_angle)) {
     std::copy(parameters.k.begin(), parameters.k.end(), k.begin());
   }
 };

@@ -12,7 +12,7 @@ inline constexpr LensParameterInfo opencv_fisheye_parameters[] = {
 inline constexpr LensInfo opencv_fisheye_info = {
     .name = "opencv_fisheye",
     .group = "calibrated",
-    .also = "OPENCV_FISHEYE, kannala_brandt, kb4",
+    .also = "kannala_brandt, kannala_brandt8, kb4, pinhole-equi, simple_radial_fisheye, radial_fisheye",
     .formula = "r = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)",
     .source = "Kannala, Brandt 2006; OpenCV 4.6 fisheye module",
     .example =
@@ -34,17 +34,13 @@ inline constexpr LensInfo opencv_fisheye_info = {
         },
 };
 #endif
+#ifndef __cplusplus
+#include "models/radial_polynomial.h"
+#endif
 
 LENS_FUNCTION real opencv_fisheye_radius(Params params, real theta) {
   real t2 = theta * theta;
   return theta * (real(1.0) + t2 * (params.k[0] + t2 * (params.k[1] + t2 * (params.k[2] + t2 * params.k[3]))));
-}
-
-LENS_FUNCTION real opencv_fisheye_slope(Params params, real theta) {
-  real t2 = theta * theta;
-  return real(1.0) +
-         t2 * (real(3.0) * params.k[0] +
-               t2 * (real(5.0) * params.k[1] + t2 * (real(7.0) * params.k[2] + t2 * real(9.0) * params.k[3])));
 }
 
 LENS_FUNCTION bool opencv_fisheye_project(Params params, vec3 direction, OUT(vec2) plane) {
@@ -52,25 +48,9 @@ LENS_FUNCTION bool opencv_fisheye_project(Params params, vec3 direction, OUT(vec
   return radial_project(params, direction, theta, opencv_fisheye_radius(params, theta), plane);
 }
 
-// Newton's method inside a bracket: a step that would leave it is a bisection instead, so that a flat end of the
-// polynomial costs steps but never the answer.
 LENS_FUNCTION bool opencv_fisheye_unproject(Params params, vec2 plane, OUT(vec3) direction) {
   real r = length(plane);
-  real low = real(0.0);
-  real high = params.max_angle;
-  real theta = min(r, high);
-  for (int step = 0; step < 64; ++step) {
-    real error = opencv_fisheye_radius(params, theta) - r;
-    if (error > real(0.0)) {
-      high = theta;
-    } else {
-      low = theta;
-    }
-    real next = theta - error / opencv_fisheye_slope(params, theta);
-    if (!(next >= low && next <= high)) next = real(0.5) * (low + high);
-    bool settled = abs(next - theta) <= real(2.0) * lens_epsilon * theta;
-    theta = next;
-    if (settled) break;
-  }
+  real c[8] = {real(1.0), params.k[0], params.k[1], params.k[2], params.k[3], real(0.0), real(0.0), real(0.0)};
+  real theta = radial_polynomial_inverse(c, true, r, r, params.max_angle);
   return radial_unproject(params, plane, theta, direction) && r <= opencv_fisheye_radius(params, params.max_angle);
 }

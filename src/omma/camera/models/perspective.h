@@ -3,7 +3,7 @@
 inline constexpr LensInfo perspective_info = {
     .name = "perspective",
     .group = "radial",
-    .also = "pinhole, rectilinear, flat, gnomonic",
+    .also = "pinhole, simple_pinhole, rectilinear, flat, gnomonic",
     .formula = "r = tan θ",
     .source = "OpenGL 4.5, 13.6 (gluPerspective); COLMAP PINHOLE",
     .example = "perspective:fov_deg=90",
