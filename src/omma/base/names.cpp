@@ -37,6 +37,22 @@ std::optional<T> parse_whole(std::string_view text) {
   return value;
 }
 
+/// Cut at the commas outside parentheses: those within belong to a formula.
+std::vector<std::string> split_values(std::string_view text) {
+  std::vector<std::string> parts;
+  int depth = 0;
+  size_t begin = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') depth = std::max(0, depth - 1);
+    if (text[i] != ',' || depth > 0) continue;
+    parts.emplace_back(text.substr(begin, i - begin));
+    begin = i + 1;
+  }
+  if (!text.empty()) parts.emplace_back(text.substr(begin));
+  return parts;
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view name, std::span<const std::string> choices) {
@@ -79,7 +95,7 @@ Spec parse_spec(std::string_view text) {
   spec.name = text.substr(0, colon);
   if (spec.name.empty()) throw CommandError("'{}': a name is expected before ':'", text);
   if (colon == std::string_view::npos) return spec;
-  for (const std::string& part : split(text.substr(colon + 1), ',')) {
+  for (const std::string& part : split_values(text.substr(colon + 1))) {
     const size_t equals = part.find('=');
     if (equals == std::string::npos || equals == 0) {
       throw CommandError("'{}': '{}' is not key=value", text, part);

@@ -22,7 +22,8 @@ struct Spec {
   std::map<std::string, std::string> values;
 };
 
-/// Throws CommandError for an empty name, a value without `=`, a key given twice.
+/// A comma within parentheses belongs to its value. Throws CommandError for an empty name, a value without `=`, a key
+/// given twice.
 Spec parse_spec(std::string_view text);
 
 /// The whole of `text` as a finite number; throws CommandError naming `what` otherwise.

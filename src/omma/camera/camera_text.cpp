@@ -12,44 +12,15 @@ namespace omma {
 namespace {
 
 constexpr double radians_per_degree = 3.14159265358979323846 / 180.0;
-constexpr ImageSize default_size{1600, 1200};
-
-constexpr CameraParameterInfo common_parameters[] = {
-    {"fov_deg", "per lens",
-     "field of view in degrees, of the extent of the image that `fit` names, the principal point in "
-     "its middle"},
-    {"fit", "per lens",
-     "`width`, `height`, `shorter` (or `circle`), `longer`, or `diagonal` (or `full`; radial lenses "
-     "only). With `shorter` a radial lens shows nothing beyond half of `fov_deg`: an image circle. "
-     "With the others it fills the image as far as its formula goes"},
-    {"f", "none", "focal length in pixels, instead of `fov_deg`"},
-    {"fx, fy", "none", "horizontal and vertical focal length in pixels, instead of `f`"},
-    {"f_mm", "none", "focal length in millimetres, instead of `f`; needs `sensor_mm`"},
-    {"sensor_mm", "none",
-     "width in millimetres of the sensor behind the whole image; alone where a lens's formula is in millimetres"},
-    {"cx, cy", "middle", "principal point in pixels from the image's top left corner"},
-    {"width, height", "the size asked for",
-     "pixels; the image that the other values are for. Another size of the same shape scales them"},
-    {"max_angle_deg", "from `fit`", "degrees from the axis beyond which nothing is seen"},
-};
 
 constexpr const char* focal_names[] = {"f", "fx", "fy", "f_mm", "sensor_mm"};
-
-struct FitName {
-  const char* name;
-  Fit fit;
-};
-constexpr FitName fit_names[] = {
-    {"width", Fit::width},       {"height", Fit::height},  {"shorter", Fit::shorter}, {"longer", Fit::longer},
-    {"diagonal", Fit::diagonal}, {"circle", Fit::shorter}, {"full", Fit::diagonal},
-};
 
 // A lens's text taken apart: which of its parameters are there, and what they hold.
 class LensText {
  public:
   LensText(const LensModel& model, Spec spec) : model_(model), spec_(std::move(spec)) {
     std::vector<std::string> names;
-    for (const CameraParameterInfo& parameter : common_parameters) {
+    for (const CameraParameterInfo& parameter : common_camera_parameters()) {
       for (const std::string& name : split(parameter.name, ',')) {
         names.push_back(name.substr(name.find_first_not_of(' ')));
       }
@@ -112,42 +83,20 @@ class LensText {
   Fit fit() const {
     const LensInfo& info = model_.info;
     if (!has("fit")) return info.default_fit;
-    const auto* found = std::ranges::find(fit_names, value("fit"), &FitName::name);
-    if (found == std::end(fit_names)) {
-      std::vector<std::string> choices;
-      for (const FitName& choice : fit_names) choices.emplace_back(choice.name);
-      throw CommandError("{}: {}", spec_.name, unknown_name("fit", value("fit"), choices));
-    }
-    if (found->fit == Fit::diagonal && !info.radial) {
+    const Fit fit = parse_fit(spec_.name, value("fit"));
+    if (fit == Fit::diagonal && !info.radial) {
       throw CommandError(
           "{}: fit={} needs a lens that is the same in every direction from its axis, which {} is "
           "not; width, height, shorter or longer is accepted",
           spec_.name, value("fit"), info.name);
     }
-    return found->fit;
+    return fit;
   }
 
  private:
   const LensModel& model_;
   Spec spec_;
 };
-
-double half_extent(Fit fit, const ImageSize& size) {
-  const double width = 0.5 * size.width, height = 0.5 * size.height;
-  switch (fit) {
-    case Fit::width:
-      return width;
-    case Fit::height:
-      return height;
-    case Fit::shorter:
-      return std::min(width, height);
-    case Fit::longer:
-      return std::max(width, height);
-    case Fit::diagonal:
-      break;
-  }
-  return std::hypot(width, height);
-}
 
 // How wide a field of view a lens can have along one extent of the image.
 struct FovLimit {
@@ -282,17 +231,7 @@ void set_focal_and_angle(const LensText& text, Lens& lens) {
 
 // The same lens for an image of another size but the same shape, up to rounding to whole pixels.
 void rescale(const LensText& text, Lens& lens, const ImageSize& size) {
-  const glm::dvec2 own(lens.size.width, lens.size.height), wanted(size.width, size.height);
-  const bool same_shape =
-      std::abs(wanted.y - wanted.x * own.y / own.x) <= 0.5 || std::abs(wanted.x - wanted.y * own.x / own.y) <= 0.5;
-  if (!same_shape) {
-    throw CommandError(
-        "{} x {} are for an image of {} x {}, and {} x {} has another shape; ask for a size of the "
-        "same shape, for example {} x {}",
-        text.label("width"), "height", own.x, own.y, wanted.x, wanted.y, wanted.x,
-        std::max(1.0, std::round(wanted.x * own.y / own.x)));
-  }
-  const glm::dvec2 scale = wanted / own;
+  const glm::dvec2 scale = image_scale(text.label("width"), lens.size, size);
   lens.focal *= scale;
   lens.centre *= scale;
   lens.size = size;
@@ -315,7 +254,7 @@ Camera make_lens_camera(const LensModel& model, Spec spec, std::optional<ImageSi
 
   Lens lens;
   lens.model = &model;
-  lens.size = own_size ? *own_size : size.value_or(default_size);
+  lens.size = own_size ? *own_size : size.value_or(default_image_size);
   std::vector<double> values;
   for (const LensParameterInfo& parameter : model.info.parameters) values.push_back(text.lens_parameter(parameter));
   lens.parameters = lens_parameters(model.info, values);
@@ -335,8 +274,6 @@ Camera make_lens_camera(const LensModel& model, Spec spec, std::optional<ImageSi
 }
 
 }  // namespace
-
-std::span<const CameraParameterInfo> common_camera_parameters() { return common_parameters; }
 
 void check_image_size(std::string_view what, ImageSize size) {
   for (const int side : {size.width, size.height}) {
