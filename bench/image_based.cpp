@@ -72,7 +72,9 @@ nlohmann::json run_filter(const Options& options, const Scene& scene, Renderer& 
   const char* filter_name = filter == Filter::anisotropic ? "16x anisotropic" : "trilinear";
   fmt::print("\n{} x {}, {}, {} sample{} per pixel\n\n", size.width, size.height, filter_name, samples,
              samples == 1 ? "" : "s");
-  fmt::print("| camera | technique | ms (10–90%) | × planar | ns per pixel with a ray | × planar | drawn / in scene | stages |\n");
+  fmt::print(
+      "| camera | technique | ms (10–90%) | × planar | ns per pixel with a ray | × planar | drawn / in scene | stages "
+      "|\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   nlohmann::json rows = nlohmann::json::array();
   double baseline_per_pixel = 0.0;

@@ -29,8 +29,7 @@ struct Bounds {
     Bounds result;
     if (empty()) return result;
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 point(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y,
-                             corner & 4 ? max.z : min.z);
+      const glm::dvec3 point(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z);
       result.add(glm::dvec3(matrix * glm::dvec4(point, 1.0)));
     }
     return result;

@@ -16,8 +16,8 @@ inline glm::dmat4 look_at_worldFromCamera(const glm::dvec3& from, const glm::dve
     right = glm::cross(std::abs(backward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0), backward);
   }
   right = glm::normalize(right);
-  return glm::dmat4(glm::dvec4(right, 0.0), glm::dvec4(glm::cross(backward, right), 0.0),
-                    glm::dvec4(backward, 0.0), glm::dvec4(from, 1.0));
+  return glm::dmat4(glm::dvec4(right, 0.0), glm::dvec4(glm::cross(backward, right), 0.0), glm::dvec4(backward, 0.0),
+                    glm::dvec4(from, 1.0));
 }
 
 }  // namespace omma

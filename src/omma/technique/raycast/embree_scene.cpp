@@ -132,8 +132,8 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
     }
     if (data.alpha == Material::Alpha::blend && !(data.cull && candidate.facing >= 0.0f)) {
       const uint32_t instance = RTCHitN_instID(hit, count, i, 0);
-      query.collected->push_back({data.scene->instances[instance].first_triangle + candidate.triangle, instance,
-                                  RTCRayN_tfar(ray, count, i)});
+      query.collected->push_back(
+          {data.scene->instances[instance].first_triangle + candidate.triangle, instance, RTCRayN_tfar(ray, count, i)});
     }
     arguments->valid[i] = 0;
   }
@@ -322,7 +322,7 @@ std::vector<std::vector<RayHit>> EmbreeScene::blended(std::span<const glm::vec3>
               limits[i].distance, ~0u,      0,        0};
           ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
           Query query = make_query(Solid::opaque, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
-      query.context.filter = filter;
+          query.context.filter = filter;
           query.collected = &found[i];
           rtcIntersect1(state_->top, &query.context, &ray);
           const auto order = [](const RayHit& a, const RayHit& b) {
