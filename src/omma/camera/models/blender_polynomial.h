@@ -29,7 +29,7 @@ inline constexpr LensInfo blender_polynomial_info = {
         [](const LensParameters& parameters) {
           const auto& k = parameters.k;
           const double c[] = {-k[1], -k[2], -k[3], -k[4]};
-          return std::min(pi, polynomial_value(c, k[5]) * k[5] - k[0]);
+          return std::clamp(polynomial_value(c, k[5]) * k[5] - k[0], 0.0, pi);
         },
     // The radius up to which the angle rises.
     .derive =
