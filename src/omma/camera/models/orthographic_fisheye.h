@@ -3,7 +3,7 @@
 inline constexpr LensInfo orthographic_fisheye_info = {
     .name = "orthographic_fisheye",
     .group = "radial",
-    .also = "orthographic, cosine_sphere",
+    .also = "orthographic, og, cosine_sphere",
     .formula = "r = sin θ",
     .source = "Snyder 1987, Map Projections, chapter 20",
     .example = "orthographic_fisheye:fov_deg=180",

@@ -3,7 +3,7 @@
 inline constexpr LensInfo stereographic_info = {
     .name = "stereographic",
     .group = "radial",
-    .also = "paraboloid, conformal_fisheye, little_planet",
+    .also = "sg, paraboloid, conformal_fisheye, little_planet",
     .formula = "r = 2 tan(θ/2)",
     .source = "Snyder 1987, Map Projections, chapter 21; Heidrich, Seidel 1998 (paraboloid)",
     .example = "stereographic:fov_deg=220",
