@@ -3,7 +3,7 @@
 #ifdef __cplusplus
 inline constexpr LensParameterInfo blender_polynomial_parameters[] = {
     {"k0", 0, -0.1, 0.1, "constant term, radians"},
-    {"k1", -0.02, -1e3, 1e3, "coefficient of r, radians mm⁻¹, negative"},
+    {"k1", -1, -1e3, 1e3, "coefficient of r, radians mm⁻¹, negative"},
     {"k2", 0, -1e3, 1e3, "coefficient of r², radians mm⁻²"},
     {"k3", 0, -1e3, 1e3, "coefficient of r³, radians mm⁻³"},
     {"k4", 0, -1e3, 1e3, "coefficient of r⁴, radians mm⁻⁴"},

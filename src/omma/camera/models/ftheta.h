@@ -21,8 +21,8 @@ inline constexpr LensInfo ftheta_info = {
     .formula = "r = k1 θ + … + k5 θ⁵, or θ = k1 r + … + k5 r⁵; (x, y) ↦ (c x + d y, e x + y)",
     .source = "NVIDIA DriveWorks, FTheta camera model; gsplat FThetaCameraDistortionParameters",
     .example =
-        "ftheta:f=1,cx=1919.699585,cy=1486.509644,width=3840,height=2160,max_angle_deg=77.13,"
-        "k1=0.0005287144449539483,k2=9.606822e-09,k3=-1.3836345e-11,k4=1.0398226e-14,k5=-1.8810796e-18,"
+        "ftheta:f=1,cx=959.849793,cy=743.254822,width=1920,height=1080,max_angle_deg=77.13,"
+        "k1=0.0010574288899,k2=3.8427288e-08,k3=-1.10690762e-10,k4=1.66371616e-13,k5=-6.0194548e-17,"
         "c=0.9996691346,d=3.400261676e-06,e=3.736908184e-05,reference=pixeldist_to_angle",
     .default_fov_deg = 0,
     .max_fov_deg = 360,
