@@ -15,6 +15,10 @@ std::string fov_range(const LensInfo& info) {
   return fmt::format("{}{}°", info.max_fov_inclusive ? "up to " : "below ", info.max_fov_deg);
 }
 
+std::string default_fit(const LensInfo& info) {
+  return info.max_fov_deg == 0 ? "none" : fmt::format("`{}`", fit_name(info.default_fit));
+}
+
 std::string default_fov(const LensInfo& info) {
   return info.default_fov_deg == 0 ? "none" : fmt::format("{}°", info.default_fov_deg);
 }
@@ -64,8 +68,8 @@ std::string lens_table_markdown() {
         "|---|---|---|---|---|---|---|\n",
         text.empty() ? "" : "\n", heading(group));
     for (const LensInfo* info : lenses) {
-      text += fmt::format("| `{}` | {} | {} | {} | {} | `{}` | {} |\n", info->name, all_names(*info), info->formula,
-                          fov_range(*info), default_fov(*info), fit_name(info->default_fit), info->source);
+      text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", info->name, all_names(*info), info->formula,
+                          fov_range(*info), default_fov(*info), default_fit(*info), info->source);
     }
     for (const LensInfo* info : lenses) {
       if (info->parameters.empty()) continue;
@@ -90,9 +94,11 @@ std::string lens_table_text() {
     const std::vector<const LensInfo*> lenses = lenses_of(group);
     if (!lenses.empty()) text += fmt::format("{}\n\n", heading(group));
     for (const LensInfo* info : lenses) {
-      text += fmt::format("{}\n  also     {}\n  formula  {}\n  fov_deg  {}, default {}, spans the {}\n", info->name,
-                          all_names(*info), info->formula, fov_range(*info), default_fov(*info),
-                          fit_name(info->default_fit));
+      const std::string fov = info->max_fov_deg == 0 ? "none, the layout fills the image"
+                                                     : fmt::format("{}, default {}, spans the {}", fov_range(*info),
+                                                                   default_fov(*info), fit_name(info->default_fit));
+      text += fmt::format("{}\n  also     {}\n  formula  {}\n  fov_deg  {}\n", info->name, all_names(*info),
+                          info->formula, fov);
       for (const LensParameterInfo& parameter : info->parameters) {
         text += fmt::format("  {:<8} {} ({}, default {})\n", parameter.name, parameter.description,
                             value_range(parameter), default_value(parameter));

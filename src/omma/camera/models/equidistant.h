@@ -3,7 +3,7 @@
 inline constexpr LensInfo equidistant_info = {
     .name = "equidistant",
     .group = "radial",
-    .also = "fisheye, simple_fisheye, linear_fisheye, equiangular",
+    .also = "fisheye, fisheye_equidistant, simple_fisheye, linear_fisheye, equiangular",
     .formula = "r = θ",
     .source = "Gascuel et al. 2008, table 1, fish-eye (2)",
     .example = "equidistant:fov_deg=180",

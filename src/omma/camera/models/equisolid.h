@@ -3,6 +3,7 @@
 #ifdef __cplusplus
 inline constexpr LensPreset equisolid_presets[] = {
     {"mirror_ball", "fov_deg=360"},
+    {"mirrorball", "fov_deg=360"},
     {"ball", "fov_deg=360"},
 };
 

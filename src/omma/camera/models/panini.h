@@ -1,7 +1,8 @@
 // Panini's projection: a cylinder seen from a point d radii behind its axis, on a plane. Verticals and lines through
 // the centre stay straight; d = 0 is perspective, d = 1 the usual one, large d the orthographic view of the cylinder.
 // The squeezes of Hugin's general form make horizontal lines above or below straighter (positive) or only flatter them
-// (negative).
+// (negative). Hugin's general and "equi" Panini are this projection; its oldest, plain one takes the tangent of the
+// latitude twice and is not.
 #ifdef __cplusplus
 inline constexpr LensParameterInfo panini_parameters[] = {
     {"d", 1, 0, 100, "distance of the view point behind the cylinder's axis, in radii"},

@@ -1,4 +1,5 @@
 // Stereographic fisheye, what a paraboloid mirror shows: conformal, circles on the sphere stay circles.
+// Pointed straight down with a field of view around 300 degrees it shows a little planet.
 #ifdef __cplusplus
 inline constexpr LensInfo stereographic_info = {
     .name = "stereographic",
