@@ -13,6 +13,8 @@ Json to_json(const FrameStats& frame) {
   const RenderStats& render = frame.render;
   Json stages = Json::object();
   for (const auto& [stage, milliseconds] : render.stage_ms) stages[stage] = milliseconds;
+  // JSON has no number for "not counted" but null.
+  const Json fragments = render.fragments_shaded ? Json(*render.fragments_shaded) : Json(nullptr);
   return {
       {"frame", frame.frame},
       {"files", frame.files},
@@ -21,6 +23,8 @@ Json to_json(const FrameStats& frame) {
       {"triangles", render.triangles},
       {"triangles_drawn", render.triangles_drawn},
       {"replication", render.triangles ? double(render.triangles_drawn) / double(render.triangles) : 0.0},
+      {"fragments_shaded", fragments},
+      {"samples_kept", render.samples_kept},
       {"buffer_bytes", render.buffer_bytes},
       {"tiles", render.tiles},
       {"passes", render.passes},

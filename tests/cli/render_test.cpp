@@ -59,6 +59,8 @@ TEST_F(RenderCommand, StatsHoldWhatItTook) {
   EXPECT_FALSE(frame["renderer"].get<std::string>().empty());
   EXPECT_GT(frame["triangles"], 100);
   EXPECT_GT(frame["triangles_drawn"], 0);
+  EXPECT_GT(frame["fragments_shaded"], 0);
+  EXPECT_GT(frame["samples_kept"], 0);
   EXPECT_NEAR(frame["replication"].get<double>(),
               frame["triangles_drawn"].get<double>() / frame["triangles"].get<double>(), 1e-9);
   EXPECT_GT(frame["buffer_bytes"], 1000);

@@ -28,7 +28,7 @@ class StageTimer {
       glFinish();
       mark.time = std::chrono::steady_clock::now();
     } else {
-      mark.query = create_query(GL_TIMESTAMP);
+      mark.query = create_query();
       glQueryCounter(mark.query.id(), GL_TIMESTAMP);
     }
     marks_.push_back(std::move(mark));

@@ -41,37 +41,39 @@ bool may_be_in_frustum(const glm::dmat4& clipFromWorld, const Bounds& world) {
 void MeshDrawer::use(const MeshPass& pass, const View& view, int material, bool mirrored) {
   gl::Defines defines = pass.defines;
   defines.merge(output_defines(view.outputs));
-  defines.merge(scene_->materials().defines(material, view.anisotropic(), view.labels()));
+  defines.merge(tools_.scene.materials().defines(material, view.anisotropic(), view.labels()));
   std::vector<gl::Stage> stages = pass.stages;
   stages.push_back({GL_FRAGMENT_SHADER, "technique/mesh.frag"});
-  const gl::Program& program = programs_->get(stages, defines);
+  const gl::Program& program = tools_.programs.get(stages, defines);
   program.use();
   pass.set_uniforms(program);
-  scene_->materials().bind(material, view.anisotropic());
+  tools_.scene.materials().bind(material, view.anisotropic());
 
   // Image rows run downwards, which turns windings round once; a mirrored transform turns them again.
-  const bool cull = !scene_->scene().materials[size_t(material)].double_sided;
+  const bool cull = !tools_.scene.scene().materials[size_t(material)].double_sided;
   glFrontFace(mirrored ? GL_CCW : GL_CW);
   (cull ? glEnable : glDisable)(GL_CULL_FACE);
   program.set("cull_sign", cull ? (mirrored ? -1.0f : 1.0f) : 0.0f);
 }
 
 void MeshDrawer::draw(const MeshPass& pass, const View& view) {
-  glBindVertexArray(scene_->vertex_array().id());
-  scene_->bind();
+  glBindVertexArray(tools_.scene.vertex_array().id());
+  tools_.scene.bind();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
+  tools_.counters.begin();
   draw_solid(pass, view);
-  if (!view.labels() && scene_->has_blending()) draw_blended(pass, view);
+  if (!view.labels() && tools_.scene.has_blending()) draw_blended(pass, view);
+  tools_.counters.end();
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
 }
 
 void MeshDrawer::draw_solid(const MeshPass& pass, const View& view) {
   std::map<std::pair<int, bool>, std::vector<DrawCommand>> groups;
-  for (size_t i = 0; i < scene_->parts().size(); ++i) {
-    const Part& part = scene_->parts()[i];
-    const Material& material = scene_->scene().materials[size_t(part.material)];
+  for (size_t i = 0; i < tools_.scene.parts().size(); ++i) {
+    const Part& part = tools_.scene.parts()[i];
+    const Material& material = tools_.scene.scene().materials[size_t(part.material)];
     if (!view.labels() && material.alpha == Material::Alpha::blend) continue;
     if (pass.may_be_seen(part.bounds)) groups[{part.material, part.mirrored}].push_back(command(part, i));
   }
@@ -87,17 +89,17 @@ void MeshDrawer::draw_blended(const MeshPass& pass, const View& view) {
     size_t part;
     glm::uvec3 corners;
   };
-  const Scene& scene = scene_->scene();
-  const glm::dvec3 eye(scene_->worldFromCamera()[3]);
+  const Scene& scene = tools_.scene.scene();
+  const glm::dvec3 eye(tools_.scene.worldFromCamera()[3]);
   std::vector<BlendedTriangle> triangles;
-  for (size_t p = 0; p < scene_->parts().size(); ++p) {
-    const Part& part = scene_->parts()[p];
+  for (size_t p = 0; p < tools_.scene.parts().size(); ++p) {
+    const Part& part = tools_.scene.parts()[p];
     if (scene.materials[size_t(part.material)].alpha != Material::Alpha::blend || !pass.may_be_seen(part.bounds))
       continue;
     const Instance& instance = scene.instances[size_t(part.instance)];
     const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
     const uint32_t first = part.first_triangle - instance.first_triangle;
-    const uint32_t first_vertex = scene_->first_vertex(size_t(instance.mesh));
+    const uint32_t first_vertex = tools_.scene.first_vertex(size_t(instance.mesh));
     for (uint32_t t = first; t < first + part.index_count / 3; ++t) {
       const glm::uvec3 corners = mesh.triangles[t];
       const glm::dvec3 centroid =
@@ -113,13 +115,13 @@ void MeshDrawer::draw_blended(const MeshPass& pass, const View& view) {
   for (const BlendedTriangle& triangle : triangles) sorted.push_back(triangle.corners);
   const gl::Buffer indices{std::span<const glm::uvec3>(sorted)};
 
-  glVertexArrayElementBuffer(scene_->vertex_array().id(), indices.id());
+  glVertexArrayElementBuffer(tools_.scene.vertex_array().id(), indices.id());
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   for (size_t begin = 0, end = 0; begin < triangles.size(); begin = end) {
     while (end < triangles.size() && triangles[end].part == triangles[begin].part) ++end;
-    const Part& part = scene_->parts()[triangles[begin].part];
+    const Part& part = tools_.scene.parts()[triangles[begin].part];
     use(pass, view, part.material, part.mirrored);
     const auto offset = reinterpret_cast<const void*>(begin * sizeof(glm::uvec3));
     glDrawElementsInstancedBaseInstance(GL_TRIANGLES, GLsizei(3 * (end - begin)), GL_UNSIGNED_INT, offset, 1,
@@ -127,7 +129,7 @@ void MeshDrawer::draw_blended(const MeshPass& pass, const View& view) {
   }
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-  glVertexArrayElementBuffer(scene_->vertex_array().id(), scene_->indices().id());
+  glVertexArrayElementBuffer(tools_.scene.vertex_array().id(), tools_.scene.indices().id());
 }
 
 }  // namespace omma

@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "omma/gl/program.h"
-#include "omma/technique/camera_program.h"
-#include "omma/technique/gpu_scene.h"
-#include "omma/technique/view.h"
+#include "omma/technique/technique.h"
 
 namespace omma {
 
@@ -22,7 +20,7 @@ struct MeshPass {
 
 class MeshDrawer {
  public:
-  MeshDrawer(const GpuScene& scene, ProgramCache& programs) : scene_(&scene), programs_(&programs) {}
+  explicit MeshDrawer(DrawTools& tools) : tools_(tools) {}
 
   /// Draws into the bound framebuffer: opaque and masked materials first, then, for colour, blended ones from back to
   /// front by their triangles' centroids.
@@ -33,8 +31,7 @@ class MeshDrawer {
   void draw_blended(const MeshPass& pass, const View& view);
   void use(const MeshPass& pass, const View& view, int material, bool mirrored);
 
-  const GpuScene* scene_;
-  ProgramCache* programs_;
+  DrawTools& tools_;
 };
 
 /// False when a box lies wholly beyond one side of the clip volume (its near and far planes apart).

@@ -66,23 +66,6 @@ void paste(const Image& tile, const PixelRect& place, Image& whole) {
       tile);
 }
 
-/// Counts the primitives that reach the rasterizer.
-class PrimitiveCounter {
- public:
-  PrimitiveCounter() : query_(gl::create_query(GL_PRIMITIVES_GENERATED)) {
-    glBeginQuery(GL_PRIMITIVES_GENERATED, query_.id());
-  }
-  size_t finish() {
-    glEndQuery(GL_PRIMITIVES_GENERATED);
-    GLuint64 count = 0;
-    glGetQueryObjectui64v(query_.id(), GL_QUERY_RESULT, &count);
-    return size_t(count);
-  }
-
- private:
-  gl::Query query_;
-};
-
 }  // namespace
 
 struct Renderer::Parts {
@@ -211,7 +194,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
   std::map<Channel, Image> pictures;
   for (Channel channel : wanted) pictures.emplace(channel, make_image(channel, camera.size()));
   parts.tools->timer.finish();
-  PrimitiveCounter counter;
+  parts.tools->counters.finish();
   for (const PixelRect& tile : tiles) {
     View view{.camera = camera, .worldFromCamera = worldFromCamera, .tile = tile};
     view.filter = options.filter;
@@ -221,13 +204,15 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
     }
     parts.draw_channels(technique, view, pictures);
   }
-  const size_t drawn = counter.finish();
+  const gl::Counts counts = parts.tools->counters.finish();
   auto stages = parts.tools->timer.finish();
   if (stats != nullptr) {
     stats->technique = chosen.name();
     stats->renderer = parts.context.renderer();
     stats->triangles = parts.scene->triangle_count();
-    stats->triangles_drawn = drawn;
+    stats->triangles_drawn = size_t(counts.primitives);
+    stats->fragments_shaded = counts.fragments;
+    stats->samples_kept = counts.samples;
     stats->buffer_bytes = parts.gpu_scene->bytes() + parts.target.bytes() + parts.tools->multisample_target.bytes() +
                           technique.buffer_bytes();
     stats->tiles = int(tiles.size());

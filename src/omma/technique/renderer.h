@@ -29,11 +29,13 @@ struct RenderOptions {
 
 /// What a picture took. Times are milliseconds, of the GPU's own clock where there is a GPU.
 struct RenderStats {
-  std::string technique;       ///< the one that drew, `name:variant`
-  std::string renderer;        ///< the GL renderer
-  size_t triangles = 0;        ///< in the scene
-  size_t triangles_drawn = 0;  ///< primitives that reached the rasterizer, over all passes
-  size_t buffer_bytes = 0;     ///< on the GPU: geometry, textures, targets
+  std::string technique;                     ///< the one that drew, `name:variant`
+  std::string renderer;                      ///< the GL renderer
+  size_t triangles = 0;                      ///< in the scene
+  size_t triangles_drawn = 0;                ///< primitives that reached the rasterizer for surfaces, over all passes
+  std::optional<uint64_t> fragments_shaded;  ///< for surfaces; nothing where the driver does not count
+  uint64_t samples_kept = 0;                 ///< of those, samples that passed the depth test and were no hole
+  size_t buffer_bytes = 0;                   ///< on the GPU: geometry, textures, targets
   int tiles = 0;
   int passes = 0;  ///< colour passes accumulated
   std::vector<std::pair<std::string, double>> stage_ms;

@@ -60,6 +60,7 @@ void Resolver::draw(const View& view, const VisibleTriangles& visible, bool blen
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   }
+  tools_.counters.begin();
   const gl::VertexArray squares = gl::create_vertex_array();
   glEnableVertexArrayAttrib(squares.id(), 0);
   glVertexArrayAttribIFormat(squares.id(), 0, 2, GL_UNSIGNED_INT, 0);
@@ -81,6 +82,7 @@ void Resolver::draw(const View& view, const VisibleTriangles& visible, bool blen
     glBindVertexArray(squares.id());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(tiles.size()));
   }
+  tools_.counters.end();
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "omma/gl/context.h"
+#include "omma/gl/counters.h"
 #include "omma/gl/timer.h"
 #include "omma/technique/camera_program.h"
 #include "omma/technique/gpu_scene.h"
@@ -21,6 +22,7 @@ struct DrawTools {
   ProgramCache programs{};
   RayMapTexture ray_map{};
   gl::StageTimer timer{context.software()};
+  gl::Counters counters{};  ///< of what surfaces cost, full-screen passes apart
   gl::VertexArray no_vertices = gl::create_vertex_array();
 
   /// One triangle over the bound target with `program`.

@@ -179,7 +179,7 @@ class ImageBased : public Technique {
     if (view.samples > 1 && !multisample_.fits(images_.size, view.outputs, view.samples)) {
       multisample_ = Target(images_.size, view.outputs, view.samples);
     }
-    MeshDrawer drawer(tools_.scene, tools_.programs);
+    MeshDrawer drawer(tools_);
     for (size_t layer = 0; layer < faces_.size(); ++layer) {
       const Face& face = faces_[layer];
       const GLuint destination = images_.layers[layer].id();
@@ -203,7 +203,7 @@ class ImageBased : public Technique {
       layers[f] = int(f);
     }
     layered_.begin();
-    MeshDrawer(tools_.scene, tools_.programs)
+    MeshDrawer(tools_)
         .draw({.stages = {{GL_VERTEX_SHADER, "technique/mesh.vert"}, {GL_GEOMETRY_SHADER, "technique/faces.geom"}},
                .defines = {{"FACE_COUNT", std::to_string(face_count)}},
                .set_uniforms =

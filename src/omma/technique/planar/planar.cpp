@@ -26,7 +26,7 @@ class Planar : public Technique {
       tools_.timer.mark("background");
       tools_.draw_background(view);
       tools_.timer.mark("draw");
-      MeshDrawer(tools_.scene, tools_.programs)
+      MeshDrawer(tools_)
           .draw({.stages = {{GL_VERTEX_SHADER, "technique/mesh.vert"}},
                  .defines = {},
                  .set_uniforms =

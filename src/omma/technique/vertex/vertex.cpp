@@ -20,7 +20,7 @@ class Vertex : public Technique {
       tools_.timer.mark("background");
       tools_.draw_background(view);
       tools_.timer.mark("draw");
-      MeshDrawer(tools_.scene, tools_.programs)
+      MeshDrawer(tools_)
           .draw({.stages = {{GL_VERTEX_SHADER, "technique/straight.vert"},
                             {GL_GEOMETRY_SHADER, "technique/straight.geom"}},
                  .defines = defines,
