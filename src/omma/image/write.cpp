@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ostream>
 
 #include "omma/base/error.h"
 #include "omma/base/file.h"
@@ -50,20 +49,20 @@ std::vector<std::string> component_names(const ChannelInfo& channel) {
 }
 
 /// Encodes in memory and writes the bytes ourselves: not every encoder notices a full disk.
-void encode(const fs::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
+void encode(const fs::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels,
+            const std::string& xmp = {}) {
   OIIO::Filesystem::IOVecOutput memory;
   const std::string name = "image" + path.extension().string();
   const auto output = OIIO::ImageOutput::create(name, &memory);
   if (!output || !output->open(name, spec) || !output->write_image(type, pixels) || !output->close()) {
     throw MachineError("{}: cannot be encoded ({})", path.string(), output ? output->geterror() : OIIO::geterror());
   }
-  write_stream(path, [&](std::ostream& stream) {
-    stream.write(reinterpret_cast<const char*>(memory.buffer().data()),
-                 static_cast<std::streamsize>(memory.buffer().size()));
-  });
+  std::string bytes(reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size());
+  if (!xmp.empty()) bytes = with_xmp(std::move(bytes), find_image_format(path)->format, xmp);
+  write_text(path, bytes);
 }
 
-void write_srgb8(const fs::path& path, const FloatImage& image) {
+void write_srgb8(const fs::path& path, const FloatImage& image, const std::optional<PanoramaPlace>& panorama) {
   std::vector<uint8_t> bytes(image.values.size());
   std::transform(image.values.begin(), image.values.end(), bytes.begin(),
                  [](float linear) { return static_cast<uint8_t>(std::lround(255.0f * srgb_from_linear(linear))); });
@@ -71,7 +70,7 @@ void write_srgb8(const fs::path& path, const FloatImage& image) {
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("CompressionQuality", 95);
   spec.attribute("jpeg:subsampling", "4:4:4");
-  encode(path, spec, OIIO::TypeUInt8, bytes.data());
+  encode(path, spec, OIIO::TypeUInt8, bytes.data(), panorama ? gpano_xmp(*panorama, image.size) : std::string());
 }
 
 void write_png16(const fs::path& path, const IntImage& image, const ChannelInfo& channel) {
@@ -89,12 +88,15 @@ void write_png16(const fs::path& path, const IntImage& image, const ChannelInfo&
 }
 
 template <typename T>
-void write_exr(const fs::path& path, const ImageOf<T>& image, const ChannelInfo& channel) {
+void write_exr(const fs::path& path, const ImageOf<T>& image, const ChannelInfo& channel,
+               const std::optional<PanoramaPlace>& panorama) {
   // -1 and 4294967295 are the same 32 bits.
   const OIIO::TypeDesc type = std::is_same_v<T, float> ? OIIO::TypeFloat : OIIO::TypeUInt32;
   OIIO::ImageSpec spec(image.size.width, image.size.height, image.components, type);
   spec.channelnames = component_names(channel);
   spec.attribute("compression", "zip");
+  // OpenImageIO's name for OpenEXR's attribute envmap = LATLONG, which knows only the whole sphere.
+  if (panorama && panorama->full == image.size) spec.attribute("textureformat", "LatLong Environment");
   encode(path, spec, type, image.values.data());
 }
 
@@ -112,7 +114,8 @@ void check_image_output(const fs::path& path, Channel channel) {
   require_writable(path);
 }
 
-void write_image(const fs::path& path, const Image& image, Channel channel) {
+void write_image(const fs::path& path, const Image& image, Channel channel,
+                 const std::optional<PanoramaPlace>& panorama) {
   const ChannelInfo& info = channel_info(channel);
   const ImageFormat format = format_for(path, info).format;
   const auto* floats = std::get_if<FloatImage>(&image);
@@ -120,14 +123,15 @@ void write_image(const fs::path& path, const Image& image, Channel channel) {
     throw CommandError("{}: the image is no channel '{}': {} components of {} are expected", path.string(), info.name,
                        info.components, info.integer ? "whole numbers" : "floats");
   }
+  const std::optional<PanoramaPlace> place = channel == Channel::color ? panorama : std::nullopt;
   std::visit(
       [&]<typename T>(const ImageOf<T>& typed) {
         if (format == ImageFormat::npy) return write_npy_image(path, typed);
-        if (format == ImageFormat::exr) return write_exr(path, typed, info);
+        if (format == ImageFormat::exr) return write_exr(path, typed, info, place);
         if constexpr (std::is_same_v<T, int32_t>) {
           write_png16(path, typed, info);
         } else {
-          format == ImageFormat::pfm ? write_pfm(path, typed) : write_srgb8(path, typed);
+          format == ImageFormat::pfm ? write_pfm(path, typed) : write_srgb8(path, typed, place);
         }
       },
       image);

@@ -8,8 +8,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "omma/image/image.h"
+#include "omma/image/metadata.h"
 
 namespace omma {
 
@@ -18,7 +20,9 @@ namespace omma {
 void check_image_output(const std::filesystem::path& path, Channel channel);
 
 /// The file is there whole or not at all. Throws as check_image_output does, CommandError for numbers above 65534 in a
-/// .png, and MachineError when the disk refuses.
-void write_image(const std::filesystem::path& path, const Image& image, Channel channel);
+/// .png, and MachineError when the disk refuses. Colour that is (part of) a panorama says so: GPano XMP in .jpg and
+/// .png, and in .exr `envmap` where it is the whole sphere.
+void write_image(const std::filesystem::path& path, const Image& image, Channel channel,
+                 const std::optional<PanoramaPlace>& panorama = std::nullopt);
 
 }  // namespace omma
