@@ -1,36 +1,16 @@
 #include "outputs.h"
 
 #include <algorithm>
-#include <optional>
+#include <numbers>
 #include <set>
 
 #include "omma/base/error.h"
 #include "omma/base/names.h"
+#include "omma/base/numbered_name.h"
 #include "omma/image/write.h"
 
 namespace omma::tool {
 namespace {
-
-struct Pattern {
-  size_t begin, end;  ///< in the path
-  int digits;
-  bool zeros;
-};
-
-/// The place of `%d`, `%4d` or `%04d`. Throws CommandError for any other use of '%', as in printf `%%` is no pattern.
-std::optional<Pattern> find_pattern(const std::string& path) {
-  std::optional<Pattern> pattern;
-  for (size_t begin = path.find('%'); begin != std::string::npos; begin = path.find('%', begin + 1)) {
-    const size_t end = path.find_first_not_of("0123456789", begin + 1);
-    const std::string digits = path.substr(begin + 1, end - begin - 1);
-    if (end == std::string::npos || path[end] != 'd' || digits.size() > 2) {
-      throw CommandError("{}: '%' begins the place of the frame's number, %04d is expected", path);
-    }
-    if (pattern) throw CommandError("{}: has two places for the frame's number, one is expected", path);
-    pattern = {begin, end + 1, digits.empty() ? 0 : std::stoi(digits), digits.starts_with('0')};
-  }
-  return pattern;
-}
 
 Output parse_output(const std::string& text) {
   Output output{text};
@@ -47,15 +27,9 @@ Output parse_output(const std::string& text) {
 
 }  // namespace
 
-bool Output::has_pattern() const { return find_pattern(path).has_value(); }
+bool Output::has_pattern() const { return has_number_pattern(path); }
 
-std::filesystem::path Output::path_of(int frame) const {
-  const std::optional<Pattern> pattern = find_pattern(path);
-  if (!pattern) return path;
-  const std::string number =
-      pattern->zeros ? fmt::format("{:0{}}", frame, pattern->digits) : fmt::format("{:{}}", frame, pattern->digits);
-  return path.substr(0, pattern->begin) + number + path.substr(pattern->end);
-}
+std::filesystem::path Output::path_of(int frame) const { return numbered_name(path, frame); }
 
 std::vector<Output> parse_outputs(const std::vector<std::string>& texts) {
   std::vector<Output> outputs;
@@ -67,6 +41,19 @@ std::vector<Output> parse_outputs(const std::vector<std::string>& texts) {
     }
   }
   return outputs;
+}
+
+std::optional<PanoramaPlace> panorama_place(const Camera& camera) {
+  const Lens* lens = camera.lens();
+  if (!lens || lens->model != find_lens_model("equirectangular")) return std::nullopt;
+  // The plane's unit is the radian: the sphere reaches half a turn left and right of the centre, a quarter up and down.
+  const glm::dvec2 half = std::numbers::pi * glm::dvec2(lens->focal.x, 0.5 * lens->focal.y);
+  const glm::dvec2 full = glm::round(2.0 * half), corner = glm::round(half - lens->centre);
+  const bool inside = corner.x >= 0.0 && corner.y >= 0.0 && corner.x + lens->size.width <= full.x &&
+                      corner.y + lens->size.height <= full.y && std::max(full.x, full.y) < 1e6;
+  if (!inside) return std::nullopt;
+  return PanoramaPlace{
+      {static_cast<int>(full.x), static_cast<int>(full.y)}, static_cast<int>(corner.x), static_cast<int>(corner.y)};
 }
 
 }  // namespace omma::tool

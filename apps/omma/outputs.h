@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "omma/camera/camera.h"
 #include "omma/image/image.h"
+#include "omma/image/metadata.h"
 
 namespace omma::tool {
 
@@ -20,5 +23,9 @@ struct Output {
 /// From the texts of -o. Throws CommandError for an unknown channel or format, a format that cannot hold the channel, a
 /// folder that is missing, a file named twice, a pattern that is none.
 std::vector<Output> parse_outputs(const std::vector<std::string>& texts);
+
+/// Where the picture of an equirectangular camera lies within the whole panorama. Nothing for other cameras, and for a
+/// picture that reaches beyond the poles or the seam behind the camera.
+std::optional<PanoramaPlace> panorama_place(const Camera& camera);
 
 }  // namespace omma::tool

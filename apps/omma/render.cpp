@@ -12,6 +12,7 @@
 #include "omma/base/error.h"
 #include "omma/base/file.h"
 #include "omma/base/names.h"
+#include "omma/camera/deformation/deformation.h"
 #include "omma/image/write.h"
 #include "omma/technique/registry.h"
 #include "omma/technique/renderer.h"
@@ -78,7 +79,7 @@ class Job {
         outputs_(parse_outputs(options.outputs)),
         render_options_(render_options_of(options)),
         view_(options.view),
-        camera_(make_camera(options.camera, size_option(options))),
+        camera_(first_camera(options.camera, size_option(options), view_)),
         stats_path_(options.stats),
         overwrite_(options.overwrite) {
     if (stats_path_) require_writable(*stats_path_);
@@ -109,6 +110,16 @@ class Job {
   static std::optional<ImageSize> size_option(const Options& options) {
     if (!options.size) return std::nullopt;
     return size_of("--size", *options.size);
+  }
+
+  static Camera first_camera(const std::string& text, std::optional<ImageSize> size, const View& view) {
+    return make_camera(changes_with_frame(text) ? text_of_frame(text, view.frames().front().number) : text, size);
+  }
+
+  /// A camera texture that is a sequence of files has one for each frame.
+  Camera camera_of(const Frame& frame) const {
+    if (!changes_with_frame(camera_text_)) return camera_;
+    return make_camera(text_of_frame(camera_text_, frame.number), camera_.size());
   }
 
   bool numbered() const {
@@ -190,15 +201,17 @@ class Job {
   FrameStats render_frame(Renderer& renderer, const Scene& scene, const Frame& frame) const {
     FrameStats stats;
     stats.frame = frame.number;
+    const Camera camera = camera_of(frame);
     auto begin = std::chrono::steady_clock::now();
     const std::map<Channel, Image> images =
-        renderer.render(camera_, view_.worldFromCamera(scene, frame), channels_, render_options_, &stats.render);
+        renderer.render(camera, view_.worldFromCamera(scene, frame), channels_, render_options_, &stats.render);
     stats.render_ms = milliseconds_since(begin);
 
     begin = std::chrono::steady_clock::now();
+    const std::optional<PanoramaPlace> panorama = panorama_place(camera);
     for (const Output& output : outputs_) {
       const fs::path path = output.path_of(frame.number);
-      write_image(path, images.at(output.channel), output.channel);
+      write_image(path, images.at(output.channel), output.channel, panorama);
       stats.files.push_back(path.string());
     }
     stats.write_ms = milliseconds_since(begin);

@@ -108,6 +108,14 @@ Spec parse_spec(std::string_view text) {
   return spec;
 }
 
+std::string spec_text(const Spec& spec) {
+  std::string text = spec.name;
+  for (const auto& [key, value] : spec.values) {
+    text += fmt::format("{}{}={}", text.size() == spec.name.size() ? ':' : ',', key, value);
+  }
+  return text;
+}
+
 double parse_number(std::string_view what, std::string_view text) {
   const auto value = parse_whole<double>(text);
   if (!value || !std::isfinite(*value)) {

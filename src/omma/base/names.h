@@ -26,6 +26,9 @@ struct Spec {
 /// given twice.
 Spec parse_spec(std::string_view text);
 
+/// The text that parse_spec takes apart to this.
+std::string spec_text(const Spec& spec);
+
 /// The whole of `text` as a finite number; throws CommandError naming `what` otherwise.
 double parse_number(std::string_view what, std::string_view text);
 

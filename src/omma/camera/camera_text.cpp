@@ -7,6 +7,7 @@
 #include "omma/base/names.h"
 #include "omma/camera/camera.h"
 #include "omma/camera/camera_parameters.h"
+#include "omma/camera/deformation/deformation.h"
 
 namespace omma {
 namespace {
@@ -286,6 +287,9 @@ void check_image_size(std::string_view what, ImageSize size) {
 
 Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
   if (size) check_image_size("size", *size);
+  if (const DeformationInfo* deformation = find_deformation(text.substr(0, text.find(':')))) {
+    return deformation->make(parse_spec(text), size);
+  }
   if (text.ends_with(".npy")) {
     RayMap map = load_ray_map(text);
     if (size && *size != map.size) {
@@ -299,6 +303,7 @@ Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
   if (!model) {
     std::vector<std::string> names;
     for (const LensModel& known : lens_models()) names.emplace_back(known.info.name);
+    for (const DeformationInfo& known : deformations()) names.emplace_back(known.name);
     throw CommandError("{}; or the name of a ray map, a .npy file", unknown_name("camera", spec.name, names));
   }
   return make_lens_camera(*model, std::move(spec), size);
