@@ -1,4 +1,5 @@
-// omma camera: what a camera is, where points land in its image, which way its pixels look.
+// omma camera: what a camera is, where points land in its image, which way its pixels look; the camera as another
+// model or in another program's file.
 #include "omma/camera/camera.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,10 @@
 #include "commands.h"
 #include "omma/base/error.h"
 #include "omma/base/file.h"
+#include "omma/base/names.h"
 #include "omma/camera/field_of_view.h"
+#include "omma/camera/files/camera_file.h"
+#include "omma/camera/fit.h"
 #include "omma/image/npy.h"
 
 namespace omma::tool {
@@ -24,7 +28,7 @@ constexpr double degrees_per_radian = 180.0 / 3.14159265358979323846;
 /// As typed.
 struct Options {
   std::string camera;
-  Text size, rays;
+  Text size, rays, model, output, format;
   std::vector<std::string> project, unproject;
   bool json = false;
 };
@@ -74,6 +78,25 @@ Json unprojections(const Camera& camera, const Options& options) {
   return list;
 }
 
+/// The camera as the model of `--model NAME[:PARAMETER,…]`, and how far its pixels are from what they were.
+CameraFit convert(const Camera& camera, const std::string& text) {
+  const size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  const LensModel* model = find_lens_model(name);
+  if (!model) {
+    std::vector<std::string> names;
+    for (const LensModel& known : lens_models()) names.emplace_back(known.info.name);
+    throw CommandError("--model: {}", unknown_name("camera model", name, names));
+  }
+  if (colon == std::string::npos) return fit_camera(camera, *model);
+  return fit_camera(camera, *model, split(text.substr(colon + 1), ','));
+}
+
+Json describe(const Residual& residual) {
+  return {{"points", residual.points}, {"not_seen", residual.lost}, {"mean_px", residual.mean_px},
+          {"p95_px", residual.p95_px}, {"max_px", residual.max_px}, {"max_at", {residual.max_at.x, residual.max_at.y}}};
+}
+
 std::string value_text(const Json& value) {
   if (value.is_null()) return "none";
   if (value.is_string()) return value.get<std::string>();
@@ -86,6 +109,10 @@ std::string value_text(const Json& value) {
 
 void print_text(const Json& json) {
   for (const auto& [key, value] : json.items()) {
+    if (key == "residual") {
+      for (const auto& [name, number] : value.items()) fmt::print("residual {:<11}{}\n", name, value_text(number));
+      continue;
+    }
     if (key != "project" && key != "unproject") {
       fmt::print("{:<20}{}\n", key, value_text(value));
       continue;
@@ -119,13 +146,30 @@ void run(const Options& options) {
     if (!options.rays->ends_with(".npy")) throw CommandError("--rays {}: a name that ends in .npy", *options.rays);
     require_writable(*options.rays);
   }
+  if (options.format && !options.output) throw CommandError("--format is for -o, which is missing");
+  if (options.output) {
+    require_camera_format(*options.output, options.format.value_or(""));
+    require_writable(*options.output);
+  }
   std::optional<ImageSize> size;
   if (options.size) size = size_of("--size", *options.size);
-  const Camera camera = make_camera(options.camera, size);
+  Camera camera = make_camera(options.camera, size);
+  std::optional<Residual> residual;
+  if (options.model) {
+    CameraFit fit = convert(camera, *options.model);
+    camera = std::move(fit.camera);
+    residual = fit.residual;
+  }
   Json json = describe(camera);
+  if (residual) json["residual"] = describe(*residual);
   if (!options.project.empty()) json["project"] = projections(camera, options);
   if (!options.unproject.empty()) json["unproject"] = unprojections(camera, options);
   if (options.rays) write_rays(*options.rays, camera);
+  if (options.output) {
+    const auto file = camera_file_text(options.camera);
+    const NamedCamera named{file && file->name ? *file->name : "camera", camera};
+    write_camera_file(*options.output, {&named, 1}, options.format.value_or(""));
+  }
   if (options.json) {
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
@@ -138,7 +182,10 @@ void run(const Options& options) {
 void add_camera(CLI::App& tool) {
   CLI::App* command = tool.add_subcommand("camera", "Describe a camera; project and unproject points");
   auto options = std::make_shared<Options>();
-  command->add_option("camera", options->camera, "A lens with its parameters, or a .npy ray map (see 'omma cameras')")
+  command
+      ->add_option("camera", options->camera,
+                   "A lens with its parameters (see 'omma cameras'), a .npy ray map, or a calibration file, FILE or "
+                   "FILE#CAMERA")
       ->type_name("CAMERA")
       ->required();
   command->add_option("--size", options->size, "Pixels, default 1600x1200 or the camera's own")->type_name("WxH");
@@ -155,12 +202,24 @@ void add_camera(CLI::App& tool) {
       ->allow_extra_args(false);
   command->add_option("--rays", options->rays, "Write the direction of every pixel, H x W x 3 float32: a ray map")
       ->type_name("FILE.npy");
+  command
+      ->add_option("--model", options->model,
+                   "Fit this model to the camera, with all of its parameters or those named, and say how far its "
+                   "pixels are off")
+      ->type_name("MODEL[:PARAMETER,...]");
+  command->add_option("-o,--output", options->output, "Write the camera as a calibration file")->type_name("FILE");
+  command
+      ->add_option("--format", options->format,
+                   "The file's format where its extension leaves a choice: opencv, ros, kalibr, basalt, colmap, "
+                   "nerfstudio")
+      ->type_name("FORMAT");
   command->add_flag("--json", options->json, "Print JSON");
   command->footer(
       "Examples:\n"
       "  omma camera equidistant:fov_deg=180 --size 1024x1024\n"
       "  omma camera equisolid:fov_deg=220 --project 1,0,-1 --project -1,0,0.2\n"
-      "  omma camera cylinder:fov_deg=360 --unproject 0,600 --rays rays.npy --json");
+      "  omma camera cylinder:fov_deg=360 --unproject 0,600 --rays rays.npy --json\n"
+      "  omma camera camchain.yaml#cam1 --model double_sphere -o rig.yaml --format kalibr");
   command->callback([options] { run(*options); });
 }
 

@@ -73,7 +73,8 @@ class Camera {
 };
 
 /// The camera of a text: `equidistant:fov_deg=180`, `opencv_fisheye:fx=…,fy=…,…`, or the name of a `.npy` file with
-/// H x W x 3 directions. docs/cameras.md lists names and parameters.
+/// H x W x 3 directions, or a calibration file, `FILE` or `FILE#CAMERA` (docs/camera-files.md). docs/cameras.md lists
+/// names and parameters.
 ///
 /// `size` is the image asked for, if any. A camera with its own size (`width=`, `height=`) is scaled to it, which needs
 /// the same shape; a ray map has the size it has. Without either the image is 1600 x 1200.

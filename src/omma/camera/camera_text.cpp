@@ -8,6 +8,7 @@
 #include "omma/camera/camera.h"
 #include "omma/camera/camera_parameters.h"
 #include "omma/camera/deformation/deformation.h"
+#include "omma/camera/files/camera_file.h"
 
 namespace omma {
 namespace {
@@ -231,8 +232,8 @@ void set_focal_and_angle(const LensText& text, Lens& lens) {
 }
 
 // The same lens for an image of another size but the same shape, up to rounding to whole pixels.
-void rescale(const LensText& text, Lens& lens, const ImageSize& size) {
-  const glm::dvec2 scale = image_scale(text.label("width"), lens.size, size);
+void rescale(std::string_view what, Lens& lens, const ImageSize& size) {
+  const glm::dvec2 scale = image_scale(what, lens.size, size);
   lens.focal *= scale;
   lens.centre *= scale;
   lens.size = size;
@@ -265,7 +266,7 @@ Camera make_lens_camera(const LensModel& model, Spec spec, std::optional<ImageSi
   lens.centre = {0.5 * lens.size.width, 0.5 * lens.size.height};
   set_focal_and_angle(text, lens);
   lens.centre = {text.number("cx").value_or(lens.centre.x), text.number("cy").value_or(lens.centre.y)};
-  if (size && *size != lens.size) rescale(text, lens, *size);
+  if (size && *size != lens.size) rescale(text.label("width"), lens, *size);
 
   Camera camera(std::move(lens));
   if (camera.pixels_per_radian() == 0.0) {
@@ -298,13 +299,19 @@ Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
     }
     return Camera(std::move(map));
   }
+  if (const auto file = camera_file_text(text)) {
+    Lens lens = *load_camera(*file).lens();
+    if (size && *size != lens.size) rescale(text, lens, *size);
+    return Camera(std::move(lens));
+  }
+    for (const DeformationInfo& known : deformations()) names.emplace_back(known.name);
   Spec spec = parse_spec(text);
   const LensModel* model = find_lens_model(spec.name);
   if (!model) {
     std::vector<std::string> names;
     for (const LensModel& known : lens_models()) names.emplace_back(known.info.name);
-    for (const DeformationInfo& known : deformations()) names.emplace_back(known.name);
-    throw CommandError("{}; or the name of a ray map, a .npy file", unknown_name("camera", spec.name, names));
+    throw CommandError("{}; or the name of a ray map, a .npy file, or of a calibration file, FILE or FILE#CAMERA",
+                       unknown_name("camera", spec.name, names));
   }
   return make_lens_camera(*model, std::move(spec), size);
 }
