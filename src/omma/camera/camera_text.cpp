@@ -304,12 +304,12 @@ Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
     if (size && *size != lens.size) rescale(text, lens, *size);
     return Camera(std::move(lens));
   }
-    for (const DeformationInfo& known : deformations()) names.emplace_back(known.name);
   Spec spec = parse_spec(text);
   const LensModel* model = find_lens_model(spec.name);
   if (!model) {
     std::vector<std::string> names;
     for (const LensModel& known : lens_models()) names.emplace_back(known.info.name);
+    for (const DeformationInfo& known : deformations()) names.emplace_back(known.name);
     throw CommandError("{}; or the name of a ray map, a .npy file, or of a calibration file, FILE or FILE#CAMERA",
                        unknown_name("camera", spec.name, names));
   }
