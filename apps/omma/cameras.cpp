@@ -5,9 +5,22 @@
 #include <memory>
 
 #include "commands.h"
+#include "omma/camera/deformation/deformation.h"
 #include "omma/camera/lens_table.h"
 
 namespace omma::tool {
+namespace {
+
+/// Their parameters take a page of their own.
+std::string deformation_text() {
+  std::string text = "\nNo lens, but drawn as ray maps (docs/deformations.md):\n";
+  for (const DeformationInfo& info : deformations()) {
+    text += fmt::format("  {:<15} {}\n  {:<15} omma camera '{}'\n", info.name, info.description, "", info.example);
+  }
+  return text;
+}
+
+}  // namespace
 
 void add_cameras(CLI::App& tool) {
   CLI::App* command = tool.add_subcommand("cameras", "List the lenses and their parameters");
@@ -19,8 +32,9 @@ void add_cameras(CLI::App& tool) {
       "Examples:\n"
       "  omma cameras\n"
       "  omma camera equidistant:fov_deg=180,fit=diagonal    what one camera comes to");
-  command->callback(
-      [markdown] { fmt::print("{}", *markdown ? omma::lens_table_markdown() : omma::lens_table_text()); });
+  command->callback([markdown] {
+    fmt::print("{}", *markdown ? omma::lens_table_markdown() : omma::lens_table_text() + deformation_text());
+  });
 }
 
 }  // namespace omma::tool
