@@ -28,6 +28,8 @@ struct Place {
   [[noreturn]] void fail_with(const std::string& message) const;
 };
 
+struct Member;
+
 /// A node of the tree as it was parsed.
 struct Value {
   enum class Kind { null, scalar, list, map } kind = Kind::null;
@@ -35,8 +37,13 @@ struct Value {
   bool quoted = false;  ///< text that is no number even if it looks like one
   std::string tag;      ///< YAML's tag or XML's type_id, without any prefix
   std::vector<Value> items;
-  std::vector<std::pair<std::string, Value>> members;  ///< in the file's order
+  std::vector<Member> members;  ///< in the file's order
   int line = 0;
+};
+
+struct Member {
+  std::string name;
+  Value value;
 };
 
 /// A line of a plain text file, comments (#) removed, cut at white space; never empty.

@@ -40,7 +40,7 @@ bool is_camera_name(std::string_view name) {
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::yaml && document.syntax != Syntax::json) return false;
   return std::any_of(document.root.members.begin(), document.root.members.end(),
-                     [](const auto& member) { return is_camera_name(member.first); });
+                     [](const auto& member) { return is_camera_name(member.name); });
 }
 
 void add_new(std::vector<std::string>& names, const char* name) {
@@ -82,7 +82,7 @@ Camera read_camera(const Node& camera) {
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
   std::vector<CameraFile::Entry> entries;
   for (const auto& [name, camera] : Node(document).members()) {
-    if (is_camera_name(name)) entries.push_back({name, [camera] { return read_camera(camera); }});
+    if (is_camera_name(name)) entries.push_back({name, [camera = camera] { return read_camera(camera); }});
   }
   return entries;
 }

@@ -77,7 +77,7 @@ void TreeBuilder::add(Value value) {
     return;
   }
   parent.has_key = false;
-  parent.value.members.emplace_back(std::move(parent.key), std::move(value));
+  parent.value.members.push_back({std::move(parent.key), std::move(value)});
 }
 
 }  // namespace omma

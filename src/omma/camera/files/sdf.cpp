@@ -113,7 +113,7 @@ void add_cameras(const Node& node, const std::string& name, std::vector<CameraFi
     const auto given = child.find("@name");
     const std::string child_name = given ? given->text() : name;
     if (key == "camera") {
-      entries.push_back({child_name.empty() ? "camera" : child_name, [child] { return read_camera(child); }});
+      entries.push_back({child_name.empty() ? "camera" : child_name, [child = child] { return read_camera(child); }});
     } else {
       add_cameras(child, child_name, entries);
     }

@@ -62,7 +62,7 @@ std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& docum
   if (root.has(model_key)) return {{"camera", [root] { return read_camera(root); }}};
   std::vector<CameraFile::Entry> entries;
   for (const auto& [name, camera] : root.members()) {
-    if (camera.has(model_key)) entries.push_back({name, [camera] { return read_camera(camera); }});
+    if (camera.has(model_key)) entries.push_back({name, [camera = camera] { return read_camera(camera); }});
   }
   return entries;
 }
