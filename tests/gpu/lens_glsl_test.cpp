@@ -113,11 +113,17 @@ double pixel_distance(const Camera& camera, const glm::dvec2& a, const glm::dvec
   return glm::length(difference);
 }
 
-/// camera_ray's rule in double precision: over one pixel, or twice the half that exists.
+/// camera_ray's rule in double precision: over one pixel, or twice the half that exists and does not jump.
 std::optional<glm::dvec3> change(const Camera& camera, const glm::dvec2& pixel, const glm::dvec2& axis) {
   const auto here = camera.unproject(pixel), before = camera.unproject(pixel - 0.5 * axis),
              after = camera.unproject(pixel + 0.5 * axis);
-  if (before && after) return after->direction - before->direction;
+  if (before && after) {
+    const glm::dvec3 first = here->direction - before->direction, second = after->direction - here->direction;
+    const double first2 = glm::dot(first, first), second2 = glm::dot(second, second);
+    if (first2 >= 16.0 * second2) return 2.0 * second;
+    if (second2 >= 16.0 * first2) return 2.0 * first;
+    return first + second;
+  }
   if (after) return 2.0 * (after->direction - here->direction);
   if (before) return 2.0 * (here->direction - before->direction);
   return {};

@@ -1,5 +1,7 @@
 #include "omma/technique/image_based/cube.h"
 
+#include <cmath>
+
 #include "omma/camera/ray_bundle.h"
 
 namespace omma {
@@ -7,14 +9,6 @@ namespace {
 
 glm::dmat3 face(const glm::dvec3& ahead, const glm::dvec3& up) {
   return glm::transpose(glm::dmat3(glm::cross(ahead, up), -up, ahead));
-}
-
-/// Which face a direction meets; matches face_of in technique/resample.frag.
-size_t face_of(const glm::vec3& d) {
-  const glm::vec3 size = glm::abs(d);
-  if (size.x >= size.y && size.x >= size.z) return d.x > 0.0f ? 0 : 1;
-  if (size.y >= size.z) return d.y > 0.0f ? 2 : 3;
-  return d.z > 0.0f ? 4 : 5;
 }
 
 /// The ray nearest to the end of the image between a pixel that has one and its neighbour that has none: some lenses
@@ -38,10 +32,14 @@ const std::array<glm::dmat3, 6> faceFromCamera{
 std::array<FaceWindow, 6> seen_windows(const Camera& camera, const PixelRect& region) {
   std::array<FaceWindow, 6> windows;
   const auto add = [&windows](const glm::vec3& direction) {
-    const size_t f = face_of(direction);
-    const glm::dvec3 p = faceFromCamera[f] * glm::dvec3(direction);
-    windows[f].min = glm::min(windows[f].min, glm::dvec2(p) / p.z);
-    windows[f].max = glm::max(windows[f].max, glm::dvec2(p) / p.z);
+    // A ray between two faces counts for both: the GPU's rounding may send it to either.
+    constexpr double edge = 1.0 + 1e-4;
+    for (size_t f = 0; f < windows.size(); ++f) {
+      const glm::dvec3 p = faceFromCamera[f] * glm::dvec3(direction);
+      if (p.z <= 0.0 || std::abs(p.x) > edge * p.z || std::abs(p.y) > edge * p.z) continue;
+      windows[f].min = glm::min(windows[f].min, glm::dvec2(p) / p.z);
+      windows[f].max = glm::max(windows[f].max, glm::dvec2(p) / p.z);
+    }
   };
   // One pixel more all around: shifted samples lie between pixel centres.
   const PixelRect around{region.x0 - 1, region.y0 - 1, region.x1 + 1, region.y1 + 1};

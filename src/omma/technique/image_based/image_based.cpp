@@ -203,16 +203,16 @@ class ImageBased : public Technique {
       layers[f] = int(f);
     }
     layered_.begin();
-    MeshDrawer(tools_)
-        .draw({.stages = {{GL_VERTEX_SHADER, "technique/mesh.vert"}, {GL_GEOMETRY_SHADER, "technique/faces.geom"}},
-               .defines = {{"FACE_COUNT", std::to_string(face_count)}},
-               .set_uniforms =
-                   [&](const gl::Program& program) {
-                     program.set("face_clipFromCamera", std::span<const glm::mat4>(clips));
-                     program.set("layer", std::span<const int>(layers));
-                   },
-               .may_be_seen = [](const Bounds&) { return true; }},
-              view);
+    MeshDrawer(tools_).draw(
+        {.stages = {{GL_VERTEX_SHADER, "technique/mesh.vert"}, {GL_GEOMETRY_SHADER, "technique/faces.geom"}},
+         .defines = {{"FACE_COUNT", std::to_string(face_count)}},
+         .set_uniforms =
+             [&](const gl::Program& program) {
+               program.set("face_clipFromCamera", std::span<const glm::mat4>(clips));
+               program.set("layer", std::span<const int>(layers));
+             },
+         .may_be_seen = [](const Bounds&) { return true; }},
+        view);
     const gl::Framebuffer source = gl::create_framebuffer();
     for (size_t layer = 0; layer < faces_.size(); ++layer) {
       for (size_t i = 0; i < view.outputs.size(); ++i) {
