@@ -55,7 +55,7 @@ TEST(CameraFit, OnlyTheNamedParametersAreFitted) {
   const Camera camera = make_camera("opencv:f=500,width=640,height=480,k1=-0.2,k2=0.05,k3=0.01");
   const CameraFit fit = fit_camera(camera, *find_lens_model("opencv"), std::vector<std::string>{"k1", "k2"});
   EXPECT_EQ(fit.camera.lens()->parameters.k[4], 0.0);
-  EXPECT_LT(fit.residual.max_px, 0.1);
+  EXPECT_LT(fit.residual.max_px, 0.2);  // 0.17 in the corners: what k3 was good for
   EXPECT_THROW(fit_camera(camera, *find_lens_model("opencv"), std::vector<std::string>{"k9"}), CommandError);
 }
 

@@ -115,6 +115,7 @@ class Problem {
     return unknowns;
   }
 
+  size_t residual_count() const { return 2 * samples_.size(); }
   const std::vector<size_t>& free() const { return free_; }
   const LensModel& model() const { return model_; }
 
@@ -173,6 +174,11 @@ std::vector<std::vector<double>> derivatives(const Problem& problem, const Probl
   return columns;
 }
 
+// Below this root mean square nothing is left to gain, in pixels.
+constexpr double exact_px = 1e-7;
+
+bool is_exact(double cost, size_t residuals) { return cost <= exact_px * exact_px * static_cast<double>(residuals); }
+
 struct Solution {
   Problem::Unknowns unknowns;
   double cost;
@@ -182,7 +188,7 @@ Solution minimize(const Problem& problem, Problem::Unknowns unknowns) {
   std::vector<double> residuals = problem.residuals(unknowns);
   double cost = cost_of(residuals), damping = 1e-3;
   const size_t n = unknowns.size();
-  for (int iteration = 0; iteration < 200; ++iteration) {
+  for (int iteration = 0; iteration < 80 && !is_exact(cost, residuals.size()); ++iteration) {
     const auto columns = derivatives(problem, unknowns);
     std::vector<double> normal(n * n), gradient(n);
     for (size_t i = 0; i < n; ++i) {
@@ -215,7 +221,7 @@ Solution minimize(const Problem& problem, Problem::Unknowns unknowns) {
       }
       damping = better ? std::max(1e-12, 0.1 * damping) : 10.0 * damping;
     }
-    if (!better || gain < 1e-10 || cost < 1e-24 * static_cast<double>(residuals.size())) break;
+    if (!better || gain < 1e-8) break;
   }
   return {std::move(unknowns), cost};
 }
@@ -315,6 +321,7 @@ CameraFit fit_camera(const Camera& camera, const LensModel& model,
   for (size_t i = 0; i < std::min<size_t>(3, starts.size()); ++i) {
     Solution solution = minimize(problem, starts[i].unknowns);
     if (!best || solution.cost < best->cost) best = std::move(solution);
+    if (is_exact(best->cost, problem.residual_count())) break;
   }
   Camera fitted(problem.lens(best->unknowns));
   Residual residual = residual_between(camera, fitted);
