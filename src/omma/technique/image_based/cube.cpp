@@ -1,5 +1,6 @@
 #include "omma/technique/image_based/cube.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "omma/camera/ray_bundle.h"
@@ -31,9 +32,11 @@ const std::array<glm::dmat3, 6> faceFromCamera{
 
 std::array<FaceWindow, 6> seen_windows(const Camera& camera, const PixelRect& region) {
   std::array<FaceWindow, 6> windows;
-  const auto add = [&windows](const glm::vec3& direction) {
-    // A ray between two faces counts for both: the GPU's rounding may send it to either.
-    constexpr double edge = 1.0 + 1e-4;
+  // A ray within a pixel or so of an edge counts for both its faces: a shifted sample or the GPU's rounding may send it
+  // to either, and in the layouts no other pixel need see the other one.
+  const double density = camera.pixels_per_radian();
+  const double edge = 1.0 + (density > 0.0 ? std::min(2.0 / density, 0.1) : 0.0);
+  const auto add = [&windows, edge](const glm::vec3& direction) {
     for (size_t f = 0; f < windows.size(); ++f) {
       const glm::dvec3 p = faceFromCamera[f] * glm::dvec3(direction);
       if (p.z <= 0.0 || std::abs(p.x) > edge * p.z || std::abs(p.y) > edge * p.z) continue;
@@ -55,7 +58,14 @@ std::array<FaceWindow, 6> seen_windows(const Camera& camera, const PixelRect& re
       for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
         const glm::ivec2 next = glm::ivec2(x, y) + step;
         const bool inside = next.x >= around.x0 && next.x < around.x1 && next.y >= around.y0 && next.y < around.y1;
-        if (inside && at(next.x, next.y) == no_ray) add(last_ray(camera, glm::dvec2(x, y) + 0.5, step));
+        if (!inside) continue;
+        const glm::dvec2 centre = glm::dvec2(x, y) + 0.5;
+        if (at(next.x, next.y) == no_ray) {
+          add(last_ray(camera, centre, step));
+        } else if (density * glm::distance(at(x, y), at(next.x, next.y)) > 4.0) {
+          // Across a jump the next pixel tells nothing of the shifted samples between.
+          if (const auto ray = camera.unproject(centre + 0.499 * glm::dvec2(step))) add(ray->direction);
+        }
       }
     }
   }
