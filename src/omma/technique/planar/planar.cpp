@@ -26,13 +26,13 @@ class Planar : public Technique {
       tools_.timer.mark("background");
       tools_.draw_background(view);
       tools_.timer.mark("draw");
-      MeshDrawer(tools_)
-          .draw({.stages = {{GL_VERTEX_SHADER, "technique/mesh.vert"}},
-                 .defines = {},
-                 .set_uniforms =
-                     [&](const gl::Program& program) { program.set("clipFromCamera", glm::mat4(clipFromCamera)); },
-                 .may_be_seen = [&](const Bounds& world) { return may_be_in_frustum(clipFromWorld, world); }},
-                view);
+      MeshDrawer(tools_).draw(
+          {.stages = {{GL_VERTEX_SHADER, "technique/mesh.vert"}},
+           .defines = {},
+           .set_uniforms =
+               [&](const gl::Program& program) { program.set("clipFromCamera", glm::mat4(clipFromCamera)); },
+           .may_be_seen = [&](const Bounds& world) { return may_be_in_frustum(clipFromWorld, world); }},
+          view);
     });
   }
 

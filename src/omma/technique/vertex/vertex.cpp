@@ -20,18 +20,17 @@ class Vertex : public Technique {
       tools_.timer.mark("background");
       tools_.draw_background(view);
       tools_.timer.mark("draw");
-      MeshDrawer(tools_)
-          .draw({.stages = {{GL_VERTEX_SHADER, "technique/straight.vert"},
-                            {GL_GEOMETRY_SHADER, "technique/straight.geom"}},
-                 .defines = defines,
-                 .set_uniforms =
-                     [&](const gl::Program& program) {
-                       set_camera(program, view);
-                       program.set("tile_size", glm::vec2(view.size().width, view.size().height));
-                       program.set("image_size", glm::vec2(view.camera.size().width, view.camera.size().height));
-                     },
-                 .may_be_seen = [](const Bounds&) { return true; }},
-                view);
+      MeshDrawer(tools_).draw(
+          {.stages = {{GL_VERTEX_SHADER, "technique/straight.vert"}, {GL_GEOMETRY_SHADER, "technique/straight.geom"}},
+           .defines = defines,
+           .set_uniforms =
+               [&](const gl::Program& program) {
+                 set_camera(program, view);
+                 program.set("tile_size", glm::vec2(view.size().width, view.size().height));
+                 program.set("image_size", glm::vec2(view.camera.size().width, view.camera.size().height));
+               },
+           .may_be_seen = [](const Bounds&) { return true; }},
+          view);
     });
   }
 
