@@ -35,13 +35,13 @@ const std::vector<Model>& models() {
 
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::json) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   const auto calibration = root.find("value0");
   return calibration && calibration->has("intrinsics");
 }
 
-Camera read_camera(const Node& camera, const Node& resolution) {
-  const Node type = camera.at("camera_type"), intrinsics = camera.at("intrinsics");
+Camera read_camera(const DocumentNode& camera, const DocumentNode& resolution) {
+  const DocumentNode type = camera.at("camera_type"), intrinsics = camera.at("intrinsics");
   const Model* found = nullptr;
   std::vector<std::string> known;
   for (const Model& model : models()) {
@@ -60,14 +60,14 @@ Camera read_camera(const Node& camera, const Node& resolution) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root = Node(document).at("value0");
-  const std::vector<Node> cameras = root.at("intrinsics").items(), sizes = root.at("resolution").items();
+  const DocumentNode root = DocumentNode(document).at("value0");
+  const std::vector<DocumentNode> cameras = root.at("intrinsics").items(), sizes = root.at("resolution").items();
   if (cameras.size() != sizes.size()) {
     root.at("resolution").fail("has {} entries for {} cameras", sizes.size(), cameras.size());
   }
   std::vector<CameraFile::Entry> entries;
   for (size_t i = 0; i < cameras.size(); ++i) {
-    const Node camera = cameras[i], size = sizes[i];
+    const DocumentNode camera = cameras[i], size = sizes[i];
     entries.push_back({fmt::format("cam{}", i), [camera, size] { return read_camera(camera, size); }});
   }
   return entries;

@@ -73,12 +73,12 @@ bool is_whole_panorama(const Lens& lens) {
   return lens == *to_equirectangular({}, lens.size).lens();
 }
 
-Node root_of(const Document& document) {
-  return Node(std::shared_ptr<const Document>(std::shared_ptr<const Document>(), &document));
+DocumentNode root_of(const Document& document) {
+  return DocumentNode(std::shared_ptr<const Document>(std::shared_ptr<const Document>(), &document));
 }
 
-ImageSize image_size(const Node& width, const Node& height) {
-  const auto side = [](const Node& node) {
+ImageSize image_size(const DocumentNode& width, const DocumentNode& height) {
+  const auto side = [](const DocumentNode& node) {
     const long pixels = node.integer();
     if (pixels < 1 || pixels > max_image_side) {
       node.fail("{} pixels; 1 to {} is accepted", pixels, max_image_side);
@@ -88,13 +88,13 @@ ImageSize image_size(const Node& width, const Node& height) {
   return {side(width), side(height)};
 }
 
-ImageSize image_size(const Node& both) {
-  const std::vector<Node> sides = both.items();
+ImageSize image_size(const DocumentNode& both) {
+  const std::vector<DocumentNode> sides = both.items();
   if (sides.size() != 2) both.fail("has {} numbers; width and height are expected", sides.size());
   return image_size(sides[0], sides[1]);
 }
 
-glm::dvec4 from_camera_matrix(const Node& node, const std::vector<double>& matrix) {
+glm::dvec4 from_camera_matrix(const DocumentNode& node, const std::vector<double>& matrix) {
   if (matrix.size() != 9) node.fail("has {} numbers; 3 x 3 are expected", matrix.size());
   if (matrix[1] != 0.0) node.fail("has a skew of {}; 0 is accepted", matrix[1]);
   if (matrix[3] != 0.0 || matrix[6] != 0.0 || matrix[7] != 0.0 || matrix[8] != 1.0) {
@@ -103,19 +103,19 @@ glm::dvec4 from_camera_matrix(const Node& node, const std::vector<double>& matri
   return {matrix[0], matrix[4], matrix[2], matrix[5]};
 }
 
-std::vector<double> members(const Node& node, std::initializer_list<const char*> keys) {
+std::vector<double> members(const DocumentNode& node, std::initializer_list<const char*> keys) {
   std::vector<double> values;
   for (const char* key : keys) values.push_back(node.at(key).number());
   return values;
 }
 
-std::vector<double> members_or_zero(const Node& node, std::initializer_list<const char*> keys) {
+std::vector<double> members_or_zero(const DocumentNode& node, std::initializer_list<const char*> keys) {
   std::vector<double> values;
   for (const char* key : keys) values.push_back(node.has(key) ? node.at(key).number() : 0.0);
   return values;
 }
 
-void fail_unknown(const Node& node, std::string_view what, std::string_view name,
+void fail_unknown(const DocumentNode& node, std::string_view what, std::string_view name,
                   const std::vector<std::string>& known) {
   node.place().fail_with(unknown_name(what, name.substr(0, 40), known));
 }

@@ -32,24 +32,24 @@ Camera to_equirectangular(const Place& place, ImageSize size);
 bool is_whole_panorama(const Lens& lens);
 
 /// The root of a document that outlives it.
-Node root_of(const Document& document);
+DocumentNode root_of(const Document& document);
 
 /// The sizes of an image, within 1 and max_image_side.
-ImageSize image_size(const Node& width, const Node& height);
+ImageSize image_size(const DocumentNode& width, const DocumentNode& height);
 /// [width, height]
-ImageSize image_size(const Node& both);
+ImageSize image_size(const DocumentNode& both);
 
 /// fx, fy, cx, cy of a 3 x 3 matrix, rows first. Fails for skew and for what is no such matrix.
-glm::dvec4 from_camera_matrix(const Node& node, const std::vector<double>& matrix);
+glm::dvec4 from_camera_matrix(const DocumentNode& node, const std::vector<double>& matrix);
 
 /// The values of these members, in this order.
-std::vector<double> members(const Node& node, std::initializer_list<const char*> keys);
+std::vector<double> members(const DocumentNode& node, std::initializer_list<const char*> keys);
 
 /// Those that are there; 0 for the others.
-std::vector<double> members_or_zero(const Node& node, std::initializer_list<const char*> keys);
+std::vector<double> members_or_zero(const DocumentNode& node, std::initializer_list<const char*> keys);
 
 /// Fails at `node` saying what a name is unknown as, and the nearest of the known ones.
-[[noreturn]] void fail_unknown(const Node& node, std::string_view what, std::string_view name,
+[[noreturn]] void fail_unknown(const DocumentNode& node, std::string_view what, std::string_view name,
                                const std::vector<std::string>& known);
 
 /// A lens's parameters as the first `count` of another model that draws the same, its own included; nothing where it

@@ -11,14 +11,14 @@ namespace {
 
 bool recognises(const Document& document) {
   if (document.syntax == Syntax::lines) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   return root.has("model_type");
 }
 
-Camera read_camera(const Node& root) {
+Camera read_camera(const DocumentNode& root) {
   Calibration calibration{
       .model = "", .size = image_size(root.at("image_width"), root.at("image_height")), .parameters = {}};
-  const Node type = root.at("model_type"), projection = root.at("projection_parameters");
+  const DocumentNode type = root.at("model_type"), projection = root.at("projection_parameters");
   std::vector<double> intrinsics;
   if (type.text() == "MEI") {
     calibration.model = "mei";
@@ -43,7 +43,7 @@ Camera read_camera(const Node& root) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root(document);
+  const DocumentNode root(document);
   const auto name = root.find("camera_name");
   return {{name ? name->text() : "camera", [root] { return read_camera(root); }}};
 }

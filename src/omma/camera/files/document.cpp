@@ -112,76 +112,76 @@ long integer_at(const Place& place, std::string_view text) {
   return static_cast<long>(number);
 }
 
-Node Node::child(const Value& value, const std::string& name) const {
+DocumentNode DocumentNode::child(const Value& value, const std::string& name) const {
   return {document_, &value, key_.empty() ? name : key_ + "." + name};
 }
 
-std::optional<Node> Node::find(std::string_view key) const {
+std::optional<DocumentNode> DocumentNode::find(std::string_view key) const {
   for (const auto& [name, value] : value_->members) {
     if (name == key) return child(value, name);
   }
   return {};
 }
 
-std::optional<Node> Node::find_any(std::initializer_list<const char*> keys) const {
+std::optional<DocumentNode> DocumentNode::find_any(std::initializer_list<const char*> keys) const {
   for (const char* key : keys) {
-    if (std::optional<Node> found = find(key)) return found;
+    if (std::optional<DocumentNode> found = find(key)) return found;
   }
   return {};
 }
 
-Node Node::at(std::string_view key) const {
+DocumentNode DocumentNode::at(std::string_view key) const {
   if (!is_map()) fail("a map with {} is expected", quoted(key));
-  if (std::optional<Node> found = find(key)) return *found;
+  if (std::optional<DocumentNode> found = find(key)) return *found;
   std::vector<std::string> names;
   for (const auto& [name, value] : value_->members) names.push_back(name);
   const std::optional<std::string> nearest = nearest_name(key, names);
   fail("{} is missing{}", quoted(key), nearest ? fmt::format("; there is {}", quoted(*nearest)) : "");
 }
 
-std::vector<Node> Node::items() const {
+std::vector<DocumentNode> DocumentNode::items() const {
   if (!is_list()) fail("a list is expected");
-  std::vector<Node> nodes;
+  std::vector<DocumentNode> nodes;
   for (size_t i = 0; i < value_->items.size(); ++i) {
     nodes.push_back({document_, &value_->items[i], fmt::format("{}[{}]", key_, i)});
   }
   return nodes;
 }
 
-std::vector<std::pair<std::string, Node>> Node::members() const {
+std::vector<std::pair<std::string, DocumentNode>> DocumentNode::members() const {
   if (!is_map()) fail("a map is expected");
-  std::vector<std::pair<std::string, Node>> nodes;
+  std::vector<std::pair<std::string, DocumentNode>> nodes;
   for (const auto& [name, value] : value_->members) nodes.emplace_back(name, child(value, name));
   return nodes;
 }
 
-double Node::number() const {
+double DocumentNode::number() const {
   if (value_->kind != Value::Kind::scalar) fail("a number is expected");
   if (value_->quoted) fail("a number is expected, and {} is text in quotes", quoted(value_->text));
   return number_at(place(), value_->text);
 }
 
-long Node::integer() const {
+long DocumentNode::integer() const {
   number();
   return integer_at(place(), value_->text);
 }
 
-bool Node::boolean() const {
+bool DocumentNode::boolean() const {
   const std::string text = this->text();
   if (text == "true" || text == "1") return true;
   if (text == "false" || text == "0") return false;
   fail("{} is neither true nor false", quoted(text));
 }
 
-std::string Node::text() const {
+std::string DocumentNode::text() const {
   if (value_->kind != Value::Kind::scalar) fail("a text is expected");
   return value_->text;
 }
 
-std::vector<double> Node::numbers() const {
+std::vector<double> DocumentNode::numbers() const {
   std::vector<double> numbers;
   if (is_list()) {
-    for (const Node& item : items()) numbers.push_back(item.number());
+    for (const DocumentNode& item : items()) numbers.push_back(item.number());
     return numbers;
   }
   if (is_null()) return numbers;
@@ -190,7 +190,7 @@ std::vector<double> Node::numbers() const {
   return numbers;
 }
 
-std::vector<double> Node::numbers(size_t count) const {
+std::vector<double> DocumentNode::numbers(size_t count) const {
   std::vector<double> numbers = this->numbers();
   if (numbers.size() != count) fail("has {} numbers; {} are expected", numbers.size(), count);
   return numbers;

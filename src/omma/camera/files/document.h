@@ -68,9 +68,9 @@ struct Document {
 Document parse_document(std::string file, std::string_view text);
 
 /// A value together with its place. Every function that finds something else than it asks for throws InputError.
-class Node {
+class DocumentNode {
  public:
-  explicit Node(std::shared_ptr<const Document> document) : Node(document, &document->root, {}) {}
+  explicit DocumentNode(std::shared_ptr<const Document> document) : DocumentNode(document, &document->root, {}) {}
 
   const Document& document() const { return *document_; }
   const Value& value() const { return *value_; }
@@ -82,14 +82,14 @@ class Node {
   bool is_null() const { return value_->kind == Value::Kind::null; }
 
   /// A member of a map; nothing when this is no map or has no such member.
-  std::optional<Node> find(std::string_view key) const;
+  std::optional<DocumentNode> find(std::string_view key) const;
   /// The first of these members that is there.
-  std::optional<Node> find_any(std::initializer_list<const char*> keys) const;
+  std::optional<DocumentNode> find_any(std::initializer_list<const char*> keys) const;
   bool has(std::string_view key) const { return find(key).has_value(); }
-  Node at(std::string_view key) const;
+  DocumentNode at(std::string_view key) const;
 
-  std::vector<Node> items() const;
-  std::vector<std::pair<std::string, Node>> members() const;
+  std::vector<DocumentNode> items() const;
+  std::vector<std::pair<std::string, DocumentNode>> members() const;
 
   double number() const;
   long integer() const;  ///< also written as 640.0
@@ -105,10 +105,10 @@ class Node {
   }
 
  private:
-  Node(std::shared_ptr<const Document> document, const Value* value, std::string key)
+  DocumentNode(std::shared_ptr<const Document> document, const Value* value, std::string key)
       : document_(std::move(document)), value_(value), key_(std::move(key)) {}
 
-  Node child(const Value& value, const std::string& name) const;
+  DocumentNode child(const Value& value, const std::string& name) const;
 
   std::shared_ptr<const Document> document_;
   const Value* value_;

@@ -47,8 +47,8 @@ void add_new(std::vector<std::string>& names, const char* name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
 }
 
-const Model& model_of(const Node& camera) {
-  const Node camera_model = camera.at("camera_model"), distortion_model = camera.at("distortion_model");
+const Model& model_of(const DocumentNode& camera) {
+  const DocumentNode camera_model = camera.at("camera_model"), distortion_model = camera.at("distortion_model");
   const std::string camera_name = camera_model.text(), distortion_name = distortion_model.text();
   std::vector<std::string> cameras, distortions;
   for (const Model& model : models) {
@@ -61,9 +61,9 @@ const Model& model_of(const Node& camera) {
   fail_unknown(distortion_model, "distortion of " + camera_name, distortion_name, distortions);
 }
 
-Camera read_camera(const Node& camera) {
+Camera read_camera(const DocumentNode& camera) {
   const Model& model = model_of(camera);
-  const Node node = camera.at("intrinsics");
+  const DocumentNode node = camera.at("intrinsics");
   const std::vector<double> intrinsics = node.numbers(model.own + 4);
   const auto f = intrinsics.begin() + static_cast<std::ptrdiff_t>(model.own);
   Calibration calibration{.model = model.lens, .size = image_size(camera.at("resolution")), .parameters = {}};
@@ -81,7 +81,7 @@ Camera read_camera(const Node& camera) {
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
   std::vector<CameraFile::Entry> entries;
-  for (const auto& [name, camera] : Node(document).members()) {
+  for (const auto& [name, camera] : DocumentNode(document).members()) {
     if (is_camera_name(name)) entries.push_back({name, [camera = camera] { return read_camera(camera); }});
   }
   return entries;

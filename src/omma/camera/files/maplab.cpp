@@ -24,21 +24,21 @@ constexpr Model models[] = {
 };
 
 // The list of cameras within this, if it is a rig.
-std::optional<Node> rig(const Node& node) {
+std::optional<DocumentNode> rig(const DocumentNode& node) {
   const auto cameras = node.find("cameras");
   return cameras && cameras->is_list() ? cameras : std::nullopt;
 }
 
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::yaml) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   if (rig(root)) return true;
   const auto sensors = root.find("sensors");
   return sensors && sensors->is_list();
 }
 
-Camera read_camera(const Node& camera) {
-  const Node type = camera.at("type"), intrinsics = camera.at("intrinsics").at("data");
+Camera read_camera(const DocumentNode& camera) {
+  const DocumentNode type = camera.at("type"), intrinsics = camera.at("intrinsics").at("data");
   const auto distortion = camera.find("distortion");
   const std::string distortion_name = distortion ? distortion->at("type").text() : "none";
   const Model* found = nullptr;
@@ -63,15 +63,15 @@ Camera read_camera(const Node& camera) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root(document);
-  std::vector<Node> rigs = {root};
+  const DocumentNode root(document);
+  std::vector<DocumentNode> rigs = {root};
   if (const auto sensors = root.find("sensors")) rigs = sensors->items();
   std::vector<CameraFile::Entry> entries;
-  for (const Node& node : rigs) {
+  for (const DocumentNode& node : rigs) {
     const auto cameras = rig(node);
     if (!cameras) continue;
-    for (const Node& item : cameras->items()) {
-      const Node camera = item.at("camera");
+    for (const DocumentNode& item : cameras->items()) {
+      const DocumentNode camera = item.at("camera");
       entries.push_back({fmt::format("cam{}", entries.size()), [camera] { return read_camera(camera); }});
     }
   }

@@ -39,7 +39,7 @@ constexpr std::string_view panorama = "EQUIRECTANGULAR";
 
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::json) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   return root.has("fl_x") || root.has("camera_angle_x") || (root.has("frames") && root.has("camera_model")) ||
          (root.has("frames") && root.at("frames").is_list());
 }
@@ -47,12 +47,12 @@ bool recognises(const Document& document) {
 // What a frame says, else what is said for all of them.
 class Frame {
  public:
-  Frame(Node all, std::optional<Node> frame) : all_(std::move(all)), frame_(std::move(frame)) {}
-  std::optional<Node> find(const char* key) const {
-    const std::optional<Node> own = frame_ ? frame_->find(key) : std::nullopt;
+  Frame(DocumentNode all, std::optional<DocumentNode> frame) : all_(std::move(all)), frame_(std::move(frame)) {}
+  std::optional<DocumentNode> find(const char* key) const {
+    const std::optional<DocumentNode> own = frame_ ? frame_->find(key) : std::nullopt;
     return own ? own : all_.find(key);
   }
-  Node at(const char* key) const {
+  DocumentNode at(const char* key) const {
     if (const auto found = find(key)) return *found;
     return node().at(key);
   }
@@ -60,11 +60,11 @@ class Frame {
     const auto found = find(key);
     return found ? found->number() : otherwise;
   }
-  const Node& node() const { return frame_ ? *frame_ : all_; }
+  const DocumentNode& node() const { return frame_ ? *frame_ : all_; }
 
  private:
-  Node all_;
-  std::optional<Node> frame_;
+  DocumentNode all_;
+  std::optional<DocumentNode> frame_;
 };
 
 glm::dvec2 focal_of(const Frame& frame, ImageSize size) {
@@ -72,7 +72,7 @@ glm::dvec2 focal_of(const Frame& frame, ImageSize size) {
     const double fx = frame.at("fl_x").number();
     return {fx, frame.number_or("fl_y", fx)};
   }
-  const Node angle = frame.at("camera_angle_x");
+  const DocumentNode angle = frame.at("camera_angle_x");
   const double radians = angle.number();
   if (!(radians > 0.0 && radians < 3.14159265358979323846)) angle.fail("{} is no angle between 0 and π", radians);
   return glm::dvec2(0.5 * size.width / std::tan(0.5 * radians));
@@ -109,10 +109,10 @@ Camera read_camera(const Frame& frame) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root(document);
+  const DocumentNode root(document);
   std::vector<CameraFile::Entry> entries;
   if (const auto frames = root.find("frames")) {
-    for (const Node& frame : frames->items()) {
+    for (const DocumentNode& frame : frames->items()) {
       if (!frame.has("fl_x") && !frame.has("camera_angle_x") && !frame.has("camera_model")) continue;
       const Frame lens(root, frame);
       entries.push_back({frame.at("file_path").text(), [lens] { return read_camera(lens); }});

@@ -10,11 +10,11 @@
 namespace omma {
 namespace {
 
-bool is_camera(const Node& node) { return node.has("camera_model_type") && node.has("intrinsics"); }
+bool is_camera(const DocumentNode& node) { return node.has("camera_model_type") && node.has("intrinsics"); }
 
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::json) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   if (!root.is_map()) return false;
   if (is_camera(root)) return true;
   for (const auto& [name, node] : root.members()) {
@@ -27,14 +27,14 @@ void append(std::vector<double>& to, std::span<const double> values) {
   for (const double value : values) to.push_back(value);
 }
 
-std::vector<double> ftheta_parameters(const Node& intrinsics) {
-  const Node reference = intrinsics.at("reference_poly");
+std::vector<double> ftheta_parameters(const DocumentNode& intrinsics) {
+  const DocumentNode reference = intrinsics.at("reference_poly");
   const std::string which = reference.text();
   const bool from_distance = which == "1" || which == "PIXELDIST_TO_ANGLE";
   if (!from_distance && which != "2" && which != "ANGLE_TO_PIXELDIST") {
     fail_unknown(reference, "reference polynomial", which, {"1", "2", "PIXELDIST_TO_ANGLE", "ANGLE_TO_PIXELDIST"});
   }
-  const Node polynomial = intrinsics.at(from_distance ? "pixeldist_to_angle_poly" : "angle_to_pixeldist_poly");
+  const DocumentNode polynomial = intrinsics.at(from_distance ? "pixeldist_to_angle_poly" : "angle_to_pixeldist_poly");
   const std::vector<double> values = polynomial.numbers(6);
   if (values[0] != 0.0) polynomial.fail("begins with {}; a constant term of 0 is accepted", values[0]);
   std::vector<double> parameters;
@@ -45,7 +45,7 @@ std::vector<double> ftheta_parameters(const Node& intrinsics) {
 }
 
 // OpenCV's order is k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4.
-std::vector<double> pinhole_parameters(const Node& intrinsics) {
+std::vector<double> pinhole_parameters(const DocumentNode& intrinsics) {
   const std::vector<double> radial = intrinsics.at("radial_coeffs").numbers(6);
   std::vector<double> parameters;
   append(parameters, std::span(radial).first(2));
@@ -55,11 +55,11 @@ std::vector<double> pinhole_parameters(const Node& intrinsics) {
   return parameters;
 }
 
-Camera read_camera(const Node& camera) {
+Camera read_camera(const DocumentNode& camera) {
   if (const auto distortion = camera.find("external_distortion"); distortion && !distortion->is_null()) {
     distortion->fail("distortion by a windshield is not supported; null is accepted");
   }
-  const Node type = camera.at("camera_model_type"), intrinsics = camera.at("intrinsics");
+  const DocumentNode type = camera.at("camera_model_type"), intrinsics = camera.at("intrinsics");
   const std::vector<double> centre = intrinsics.at("principal_point").numbers(2);
   Calibration calibration{.model = "ftheta", .size = image_size(camera.at("resolution")), .parameters = {}};
   calibration.centre = {centre[0], centre[1]};
@@ -85,11 +85,11 @@ Camera read_camera(const Node& camera) {
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
   std::vector<CameraFile::Entry> entries;
-  const auto add = [&](const std::string& key, const Node& camera) {
+  const auto add = [&](const std::string& key, const DocumentNode& camera) {
     const auto name = camera.find("logical_sensor_name");
     entries.push_back({name ? name->text() : key, [camera] { return read_camera(camera); }});
   };
-  const Node root(document);
+  const DocumentNode root(document);
   if (is_camera(root)) {
     add("camera", root);
   } else {

@@ -12,25 +12,25 @@ namespace omma {
 namespace {
 
 // The root, within <opencv_storage> in XML.
-Node storage(const Node& root) { return root.find("opencv_storage").value_or(root); }
+DocumentNode storage(const DocumentNode& root) { return root.find("opencv_storage").value_or(root); }
 
-std::optional<Node> camera_matrix(const Node& root) {
+std::optional<DocumentNode> camera_matrix(const DocumentNode& root) {
   return root.find_any({"camera_matrix", "Camera_Matrix", "cameraMatrix", "CameraMatrix", "K"});
 }
 
-bool is_matrix(const Node& node) { return node.is_map() && node.has("data") && node.has("dt"); }
+bool is_matrix(const DocumentNode& node) { return node.is_map() && node.has("data") && node.has("dt"); }
 
 bool recognises(const Document& document) {
   if (document.syntax == Syntax::lines) return false;
-  const Node root = storage(root_of(document));
-  const std::optional<Node> matrix = camera_matrix(root);
+  const DocumentNode root = storage(root_of(document));
+  const std::optional<DocumentNode> matrix = camera_matrix(root);
   return matrix && is_matrix(*matrix) && !root.has("distortion_model");
 }
 
-std::vector<double> matrix_values(const Node& node) {
+std::vector<double> matrix_values(const DocumentNode& node) {
   if (!node.is_map()) return node.numbers();
   const long rows = node.at("rows").integer(), columns = node.at("cols").integer();
-  const Node data = node.at("data");
+  const DocumentNode data = node.at("data");
   std::vector<double> values = data.numbers();
   if (rows < 0 || columns < 0 || values.size() != static_cast<size_t>(rows) * static_cast<size_t>(columns)) {
     data.fail("has {} numbers; {} x {} are expected", values.size(), rows, columns);
@@ -38,7 +38,7 @@ std::vector<double> matrix_values(const Node& node) {
   return values;
 }
 
-ImageSize size_of(const Node& root) {
+ImageSize size_of(const DocumentNode& root) {
   if (const auto both = root.find_any({"image_size", "imageSize", "Image_Size"})) {
     if (both->is_list()) return image_size(*both);
     const std::vector<double> sides = both->numbers(2);
@@ -59,7 +59,7 @@ ImageSize size_of(const Node& root) {
 }
 
 // OpenCV's four coefficients are those of either of two models; no file says which but by a flag.
-bool is_fisheye(const Node& root, const Node& coefficients, size_t count) {
+bool is_fisheye(const DocumentNode& root, const DocumentNode& coefficients, size_t count) {
   if (const auto flag = root.find_any({"fisheye_model", "fisheye"})) return flag->boolean();
   if (count == 4) {
     coefficients.fail(
@@ -69,8 +69,8 @@ bool is_fisheye(const Node& root, const Node& coefficients, size_t count) {
   return false;
 }
 
-Camera read_camera(const Node& root) {
-  const Node matrix = *camera_matrix(root);
+Camera read_camera(const DocumentNode& root) {
+  const DocumentNode matrix = *camera_matrix(root);
   const glm::dvec4 intrinsics = from_camera_matrix(matrix, matrix_values(matrix));
   Calibration calibration{.model = "opencv", .size = size_of(root), .parameters = {}};
   calibration.focal = {intrinsics.x, intrinsics.y};
@@ -96,7 +96,7 @@ Camera read_camera(const Node& root) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root = storage(Node(document));
+  const DocumentNode root = storage(DocumentNode(document));
   std::string name = "camera";
   if (const auto given = root.find("camera_name")) name = given->text();
   return {{name, [root] { return read_camera(root); }}};

@@ -26,15 +26,17 @@ const std::vector<Model>& models() {
   return list;
 }
 
-std::optional<Node> camera_matrix(const Node& root) { return root.find_any({"camera_matrix", "K", "k"}); }
+std::optional<DocumentNode> camera_matrix(const DocumentNode& root) {
+  return root.find_any({"camera_matrix", "K", "k"});
+}
 
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::yaml && document.syntax != Syntax::json) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   return root.has("distortion_model") && camera_matrix(root);
 }
 
-std::vector<double> matrix_values(const Node& node, size_t rows) {
+std::vector<double> matrix_values(const DocumentNode& node, size_t rows) {
   if (!node.is_map()) return node.numbers();
   const std::vector<double> values = node.at("data").numbers();
   const long given_rows = node.at("rows").integer(), columns = node.at("cols").integer();
@@ -45,7 +47,7 @@ std::vector<double> matrix_values(const Node& node, size_t rows) {
 }
 
 // K is for the whole image; what a message crops or bins is another one.
-void refuse_part_of_image(const Node& root) {
+void refuse_part_of_image(const DocumentNode& root) {
   for (const char* key : {"binning_x", "binning_y"}) {
     if (const auto binning = root.find(key); binning && binning->integer() > 1) {
       binning->fail("{} is not supported; 0 or 1 is accepted", binning->integer());
@@ -58,9 +60,9 @@ void refuse_part_of_image(const Node& root) {
   }
 }
 
-Camera read_camera(const Node& root) {
+Camera read_camera(const DocumentNode& root) {
   refuse_part_of_image(root);
-  const Node name = root.at("distortion_model");
+  const DocumentNode name = root.at("distortion_model");
   std::vector<std::string> known;
   const Model* model = nullptr;
   for (const Model& candidate : models()) {
@@ -68,7 +70,7 @@ Camera read_camera(const Node& root) {
     if (name.text() == candidate.name) model = &candidate;
   }
   if (!model) fail_unknown(name, "distortion model", name.text(), known);
-  const Node matrix = *camera_matrix(root);
+  const DocumentNode matrix = *camera_matrix(root);
   const glm::dvec4 intrinsics = from_camera_matrix(matrix, matrix_values(matrix, 3));
   Calibration calibration{.model = model->lens, .size = {}, .parameters = {}};
   const auto width = root.find_any({"image_width", "width"}), height = root.find_any({"image_height", "height"});
@@ -87,7 +89,7 @@ Camera read_camera(const Node& root) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root(document);
+  const DocumentNode root(document);
   std::string name = "camera";
   if (const auto given = root.find("camera_name")) name = given->text();
   return {{name, [root] { return read_camera(root); }}};

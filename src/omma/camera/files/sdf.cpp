@@ -25,17 +25,17 @@ constexpr Type types[] = {
 
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::xml) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   return root.has("sdf") || root.has("sensor") || root.has("camera");
 }
 
-double number_or(const Node& node, const char* key, double otherwise) {
+double number_or(const DocumentNode& node, const char* key, double otherwise) {
   const auto found = node.find(key);
   return found ? found->number() : otherwise;
 }
 
-std::vector<double> custom_parameters(const Node& lens) {
-  const Node function = lens.at("custom_function"), fun = function.at("fun");
+std::vector<double> custom_parameters(const DocumentNode& lens) {
+  const DocumentNode function = lens.at("custom_function"), fun = function.at("fun");
   const std::vector<std::string> names = {"tan", "sin", "id"};
   const auto found = std::find(names.begin(), names.end(), fun.text());
   if (found == names.end()) fail_unknown(fun, "function", fun.text(), names);
@@ -43,7 +43,7 @@ std::vector<double> custom_parameters(const Node& lens) {
           static_cast<double>(found - names.begin())};
 }
 
-void refuse_distortion(const Node& camera) {
+void refuse_distortion(const DocumentNode& camera) {
   const auto distortion = camera.find("distortion");
   if (!distortion) return;
   for (const char* key : {"k1", "k2", "k3", "p1", "p2"}) {
@@ -54,7 +54,7 @@ void refuse_distortion(const Node& camera) {
 }
 
 // The radius on the model's plane at half the horizontal field of view.
-double radius_at(const Node& fov, const Calibration& calibration) {
+double radius_at(const DocumentNode& fov, const Calibration& calibration) {
   const LensModel& model = *find_lens_model(calibration.model);
   const double half = 0.5 * fov.number();
   glm::dvec2 plane;
@@ -67,9 +67,9 @@ double radius_at(const Node& fov, const Calibration& calibration) {
   return plane.x;
 }
 
-Camera read_camera(const Node& camera) {
+Camera read_camera(const DocumentNode& camera) {
   refuse_distortion(camera);
-  const Node image = camera.at("image");
+  const DocumentNode image = camera.at("image");
   Calibration calibration{
       .model = "perspective", .size = image_size(image.at("width"), image.at("height")), .parameters = {}};
   calibration.centre = {0.5 * calibration.size.width, 0.5 * calibration.size.height};
@@ -107,7 +107,7 @@ Camera read_camera(const Node& camera) {
   return to_camera(camera.place(), calibration);
 }
 
-void add_cameras(const Node& node, const std::string& name, std::vector<CameraFile::Entry>& entries) {
+void add_cameras(const DocumentNode& node, const std::string& name, std::vector<CameraFile::Entry>& entries) {
   if (!node.is_map()) return;
   for (const auto& [key, child] : node.members()) {
     const auto given = child.find("@name");
@@ -122,7 +122,7 @@ void add_cameras(const Node& node, const std::string& name, std::vector<CameraFi
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
   std::vector<CameraFile::Entry> entries;
-  add_cameras(Node(document), "", entries);
+  add_cameras(DocumentNode(document), "", entries);
   return entries;
 }
 

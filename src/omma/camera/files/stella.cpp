@@ -10,22 +10,22 @@ namespace {
 
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::yaml) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   const auto camera = root.find("Camera");
   return root.has("Camera.model") || (camera && camera->has("model"));
 }
 
 struct CameraKeys {
-  Node root;
-  Node at(const std::string& key) const {
+  DocumentNode root;
+  DocumentNode at(const std::string& key) const {
     const auto group = root.find("Camera");
     return group ? group->at(key) : root.at("Camera." + key);
   }
 };
 
-Camera read_camera(const Node& root) {
+Camera read_camera(const DocumentNode& root) {
   const CameraKeys keys{root};
-  const Node model = keys.at("model");
+  const DocumentNode model = keys.at("model");
   const std::string name = model.text();
   const ImageSize size = image_size(keys.at("cols"), keys.at("rows"));
   if (name == "equirectangular") return to_equirectangular(model.place(), size);
@@ -50,7 +50,7 @@ Camera read_camera(const Node& root) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root(document);
+  const DocumentNode root(document);
   return {{"camera", [root] { return read_camera(root); }}};
 }
 

@@ -13,7 +13,7 @@ constexpr const char* model_key = "omni:lensdistortion:model";
 
 bool recognises(const Document& document) {
   if (document.syntax != Syntax::json) return false;
-  const Node root = root_of(document);
+  const DocumentNode root = root_of(document);
   if (!root.is_map()) return false;
   if (root.has(model_key)) return true;
   for (const auto& [name, node] : root.members()) {
@@ -22,8 +22,8 @@ bool recognises(const Document& document) {
   return false;
 }
 
-Camera read_camera(const Node& camera) {
-  const Node model = camera.at(model_key);
+Camera read_camera(const DocumentNode& camera) {
+  const DocumentNode model = camera.at(model_key);
   const std::string name = model.text();
   const auto at = [&](const std::string& key) { return camera.at("omni:lensdistortion:" + name + ":" + key); };
   const auto number_or_zero = [&](const std::string& key) {
@@ -58,7 +58,7 @@ Camera read_camera(const Node& camera) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root(document);
+  const DocumentNode root(document);
   if (root.has(model_key)) return {{"camera", [root] { return read_camera(root); }}};
   std::vector<CameraFile::Entry> entries;
   for (const auto& [name, camera] : root.members()) {

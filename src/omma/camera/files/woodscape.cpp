@@ -14,8 +14,8 @@ bool recognises(const Document& document) {
   return intrinsic && intrinsic->has("poly_order");
 }
 
-Camera read_camera(const Node& root) {
-  const Node lens = root.at("intrinsic"), model = lens.at("model"), order = lens.at("poly_order");
+Camera read_camera(const DocumentNode& root) {
+  const DocumentNode lens = root.at("intrinsic"), model = lens.at("model"), order = lens.at("poly_order");
   if (model.text() != "radial_poly") fail_unknown(model, "model", model.text(), {"radial_poly"});
   if (order.integer() != 4) order.fail("is {}; 4 is accepted", order.integer());
   const ImageSize size = image_size(lens.at("width"), lens.at("height"));
@@ -28,7 +28,7 @@ Camera read_camera(const Node& root) {
 }
 
 std::vector<CameraFile::Entry> read(const std::shared_ptr<const Document>& document) {
-  const Node root(document);
+  const DocumentNode root(document);
   const auto name = root.find("name");
   return {{name ? name->text() : "camera", [root] { return read_camera(root); }}};
 }
