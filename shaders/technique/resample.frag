@@ -2,6 +2,7 @@
 #include "common/camera.glsl"
 
 #include "common/frame.glsl"
+#include "shading/footprint.glsl"
 
 // Where a face's texels lie: scale * (s, t) + offset in shares of its layer, (s, t) the tangents in the face's frame.
 uniform vec2 face_scale[6];
@@ -44,15 +45,13 @@ vec4 sample_faces(int face, PixelRay ray) {
   vec2 dx = change(face, p, ray.dx), dy = change(face, p, ray.dy);
   vec3 at = on_face(face, ray.direction);
 #ifdef FILTER_TAPS
-  vec2 size = vec2(textureSize(faces, 0).xy);
-  float x_length = length(dx * size), y_length = length(dy * size);
-  vec2 axis = x_length > y_length ? dx : dy;
-  float longer = max(x_length, y_length), shorter = min(x_length, y_length);
-  float taps = longer <= 1.0 ? 1.0 : clamp(ceil(longer / max(shorter, 1e-6)), 1.0, 16.0);
-  float lod = log2(max(longer / taps, 1e-6));
+  Footprint footprint = footprint_of(dx, dy, vec2(textureSize(faces, 0).xy));
   vec4 sum = vec4(0.0);
-  for (float i = 0.5; i < taps; i += 1.0) sum += textureLod(faces, vec3(at.xy + axis * (i / taps - 0.5), at.z), lod);
-  return sum / taps;
+  for (float i = 0.5; i < footprint.taps; i += 1.0) {
+    vec2 offset = footprint.axis * (i / footprint.taps - 0.5);
+    sum += textureLod(faces, vec3(at.xy + offset, at.z), footprint.lod);
+  }
+  return sum / footprint.taps;
 #else
   return textureGrad(faces, at, dx, dy);
 #endif
