@@ -38,38 +38,77 @@ bool may_be_in_frustum(const glm::dmat4& clipFromWorld, const Bounds& world) {
   return beyond == 0;
 }
 
-void MeshDrawer::use(const MeshPass& pass, const View& view, int material, bool mirrored) {
-  gl::Defines defines = pass.defines;
-  defines.merge(output_defines(view.outputs));
-  defines.merge(tools_.scene.materials().defines(material, view.anisotropic(), view.labels()));
-  std::vector<gl::Stage> stages = pass.stages;
-  stages.push_back({GL_FRAGMENT_SHADER, "technique/mesh.frag"});
-  const gl::Program& program = tools_.programs.get(stages, defines);
-  program.use();
-  pass.set_uniforms(program);
-  tools_.scene.materials().bind(material, view.anisotropic());
-
-  // Image rows run downwards, which turns windings round once; a mirrored transform turns them again.
-  const bool cull = !tools_.scene.scene().materials[size_t(material)].double_sided;
-  glFrontFace(mirrored ? GL_CCW : GL_CW);
-  (cull ? glEnable : glDisable)(GL_CULL_FACE);
-  program.set("cull_sign", cull ? (mirrored ? -1.0f : 1.0f) : 0.0f);
-}
-
-void MeshDrawer::draw(const MeshPass& pass, const View& view) {
-  glBindVertexArray(tools_.scene.vertex_array().id());
-  tools_.scene.bind();
+SurfaceState::SurfaceState(DrawTools& tools, bool blends) : tools_(tools) {
+  glBindVertexArray(tools.scene.vertex_array().id());
+  tools.scene.bind();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
-  tools_.counters.begin();
-  draw_solid(pass, view);
-  if (!view.labels() && tools_.scene.has_blending()) draw_blended(pass, view);
+  if (blends) {
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+  }
+  tools.counters.begin();
+}
+
+SurfaceState::~SurfaceState() {
   tools_.counters.end();
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
 }
 
+const gl::Program& use_material(DrawTools& tools, const MeshPass& pass, const View& view, int material, bool mirrored) {
+  gl::Defines defines = pass.defines;
+  defines.merge(output_defines(view.outputs));
+  defines.merge(tools.scene.materials().defines(material, view.anisotropic(), view.labels()));
+  std::vector<gl::Stage> stages = pass.stages;
+  stages.push_back({GL_FRAGMENT_SHADER, "technique/mesh.frag"});
+  const gl::Program& program = tools.programs.get(stages, defines);
+  program.use();
+  pass.set_uniforms(program);
+  tools.scene.materials().bind(material, view.anisotropic());
+
+  // Image rows run downwards, which turns windings round once; a mirrored transform turns them again.
+  const bool cull = !tools.scene.scene().materials[size_t(material)].double_sided;
+  glFrontFace(mirrored != pass.mirror_image ? GL_CCW : GL_CW);
+  (cull && pass.culls ? glEnable : glDisable)(GL_CULL_FACE);
+  program.set("cull_sign", cull ? (mirrored ? -1.0f : 1.0f) : 0.0f);
+  return program;
+}
+
+std::vector<BlendedTriangle> blended_triangles(const GpuScene& gpu_scene,
+                                               const std::function<bool(const Bounds& world)>& may_be_seen) {
+  const Scene& scene = gpu_scene.scene();
+  const glm::dvec3 eye(gpu_scene.worldFromCamera()[3]);
+  std::vector<BlendedTriangle> triangles;
+  for (size_t p = 0; p < gpu_scene.parts().size(); ++p) {
+    const Part& part = gpu_scene.parts()[p];
+    if (scene.materials[size_t(part.material)].alpha != Material::Alpha::blend || !may_be_seen(part.bounds)) continue;
+    const Instance& instance = scene.instances[size_t(part.instance)];
+    const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
+    const uint32_t first = part.first_triangle - instance.first_triangle;
+    for (uint32_t t = 0; t < part.index_count / 3; ++t) {
+      const glm::uvec3 corners = mesh.triangles[first + t];
+      const glm::dvec3 centroid =
+          glm::dvec3(mesh.positions[corners.x] + mesh.positions[corners.y] + mesh.positions[corners.z]) / 3.0;
+      const glm::dvec3 offset = glm::dvec3(instance.worldFromObject * glm::dvec4(centroid, 1.0)) - eye;
+      triangles.push_back({glm::dot(offset, offset), p, t});
+    }
+  }
+  std::stable_sort(triangles.begin(), triangles.end(),
+                   [](const auto& a, const auto& b) { return a.distance2 > b.distance2; });
+  return triangles;
+}
+
+void MeshDrawer::draw(const MeshPass& pass, const View& view) {
+  draw_solid(pass, view);
+  if (!view.labels() && tools_.scene.has_blending()) draw_blended(pass, view);
+}
+
 void MeshDrawer::draw_solid(const MeshPass& pass, const View& view) {
+  const SurfaceState state(tools_, false);
   std::map<std::pair<int, bool>, std::vector<DrawCommand>> groups;
   for (size_t i = 0; i < tools_.scene.parts().size(); ++i) {
     const Part& part = tools_.scene.parts()[i];
@@ -78,57 +117,36 @@ void MeshDrawer::draw_solid(const MeshPass& pass, const View& view) {
     if (pass.may_be_seen(part.bounds)) groups[{part.material, part.mirrored}].push_back(command(part, i));
   }
   for (const auto& [group, commands] : groups) {
-    use(pass, view, group.first, group.second);
+    use_material(tools_, pass, view, group.first, group.second);
     multi_draw(commands);
   }
 }
 
 void MeshDrawer::draw_blended(const MeshPass& pass, const View& view) {
-  struct BlendedTriangle {
-    double distance2;
-    size_t part;
-    glm::uvec3 corners;
-  };
-  const Scene& scene = tools_.scene.scene();
-  const glm::dvec3 eye(tools_.scene.worldFromCamera()[3]);
-  std::vector<BlendedTriangle> triangles;
-  for (size_t p = 0; p < tools_.scene.parts().size(); ++p) {
-    const Part& part = tools_.scene.parts()[p];
-    if (scene.materials[size_t(part.material)].alpha != Material::Alpha::blend || !pass.may_be_seen(part.bounds))
-      continue;
-    const Instance& instance = scene.instances[size_t(part.instance)];
-    const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
-    const uint32_t first = part.first_triangle - instance.first_triangle;
-    const uint32_t first_vertex = tools_.scene.first_vertex(size_t(instance.mesh));
-    for (uint32_t t = first; t < first + part.index_count / 3; ++t) {
-      const glm::uvec3 corners = mesh.triangles[t];
-      const glm::dvec3 centroid =
-          glm::dvec3(mesh.positions[corners.x] + mesh.positions[corners.y] + mesh.positions[corners.z]) / 3.0;
-      const glm::dvec3 offset = glm::dvec3(instance.worldFromObject * glm::dvec4(centroid, 1.0)) - eye;
-      triangles.push_back({glm::dot(offset, offset), p, corners + first_vertex});
-    }
-  }
+  const std::vector<BlendedTriangle> triangles = blended_triangles(tools_.scene, pass.may_be_seen);
   if (triangles.empty()) return;
-  std::stable_sort(triangles.begin(), triangles.end(),
-                   [](const auto& a, const auto& b) { return a.distance2 > b.distance2; });
+  const std::vector<Part>& parts = tools_.scene.parts();
+  const Scene& scene = tools_.scene.scene();
   std::vector<glm::uvec3> sorted;
-  for (const BlendedTriangle& triangle : triangles) sorted.push_back(triangle.corners);
+  for (const BlendedTriangle& triangle : triangles) {
+    const Part& part = parts[triangle.part];
+    const Instance& instance = scene.instances[size_t(part.instance)];
+    const uint32_t number = part.first_triangle - instance.first_triangle + triangle.number;
+    sorted.push_back(scene.meshes[size_t(instance.mesh)].triangles[number] +
+                     tools_.scene.first_vertex(size_t(instance.mesh)));
+  }
   const gl::Buffer indices{std::span<const glm::uvec3>(sorted)};
 
+  const SurfaceState state(tools_, true);
   glVertexArrayElementBuffer(tools_.scene.vertex_array().id(), indices.id());
-  glEnable(GL_BLEND);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthMask(GL_FALSE);
   for (size_t begin = 0, end = 0; begin < triangles.size(); begin = end) {
     while (end < triangles.size() && triangles[end].part == triangles[begin].part) ++end;
-    const Part& part = tools_.scene.parts()[triangles[begin].part];
-    use(pass, view, part.material, part.mirrored);
+    const Part& part = parts[triangles[begin].part];
+    use_material(tools_, pass, view, part.material, part.mirrored);
     const auto offset = reinterpret_cast<const void*>(begin * sizeof(glm::uvec3));
     glDrawElementsInstancedBaseInstance(GL_TRIANGLES, GLsizei(3 * (end - begin)), GL_UNSIGNED_INT, offset, 1,
                                         GLuint(triangles[begin].part));
   }
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
   glVertexArrayElementBuffer(tools_.scene.vertex_array().id(), tools_.scene.indices().id());
 }
 

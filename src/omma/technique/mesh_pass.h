@@ -16,7 +16,34 @@ struct MeshPass {
   gl::Defines defines;
   std::function<void(const gl::Program&)> set_uniforms;  ///< called once for each program
   std::function<bool(const Bounds& world)> may_be_seen;  ///< whole parts that answer false are left out
+  bool mirror_image = false;                             ///< the picture turns windings round
+  bool culls = true;  ///< false: triangles that face away were left out before the rasterizer
 };
+
+/// Depth test, counters and blending of surfaces, for as long as it lives. The scene's vertices are bound.
+class SurfaceState {
+ public:
+  SurfaceState(DrawTools& tools, bool blends);
+  ~SurfaceState();
+  SurfaceState(const SurfaceState&) = delete;
+  SurfaceState& operator=(const SurfaceState&) = delete;
+
+ private:
+  DrawTools& tools_;
+};
+
+/// Makes ready to draw surfaces of a material, and returns the program that will.
+const gl::Program& use_material(DrawTools& tools, const MeshPass& pass, const View& view, int material, bool mirrored);
+
+struct BlendedTriangle {
+  double distance2;  ///< of its centroid from the camera, square metres
+  size_t part;
+  uint32_t number;  ///< in its part
+};
+
+/// The triangles of blended materials, the farthest first.
+std::vector<BlendedTriangle> blended_triangles(const GpuScene& scene,
+                                               const std::function<bool(const Bounds& world)>& may_be_seen);
 
 class MeshDrawer {
  public:
@@ -29,7 +56,6 @@ class MeshDrawer {
  private:
   void draw_solid(const MeshPass& pass, const View& view);
   void draw_blended(const MeshPass& pass, const View& view);
-  void use(const MeshPass& pass, const View& view, int material, bool mirrored);
 
   DrawTools& tools_;
 };
