@@ -38,16 +38,14 @@ Json optional_number(const std::optional<double>& value) { return value ? Json(*
 Json describe(const Camera& camera) {
   const ImageSize size = camera.size();
   const FieldOfView fov = field_of_view(camera);
-  Json json{{"camera", to_text(camera)}, {"width", size.width}, {"height", size.height}};
+  Json json{{"camera", to_text(camera)}, {"width", size.width}, {"height", size.height}, {"model", camera.kind()}};
   if (const Lens* lens = camera.lens()) {
-    json["model"] = lens->model->info.name;
     json["formula"] = lens->model->info.formula;
     json["focal_px"] = {lens->focal.x, lens->focal.y};
     json["centre_px"] = {lens->centre.x, lens->centre.y};
     json["max_angle_deg"] = lens->parameters.max_angle * degrees_per_radian;
-  } else {
-    json["model"] = "ray map";
   }
+  if (const PieceSet* pieces = camera.pieces()) json["pieces"] = pieces->pieces().size();
   json["horizontal_fov_deg"] = optional_number(fov.horizontal_deg);
   json["vertical_fov_deg"] = optional_number(fov.vertical_deg);
   json["diagonal_fov_deg"] = optional_number(fov.diagonal_deg);

@@ -179,6 +179,11 @@ projection_parameters:
     <scale_to_hfov>true</scale_to_hfov><cutoff_angle>1.5707</cutoff_angle></lens>
 </camera></sensor></link></model></sdf>
 )"},
+      {"pieces", R"({"size":[64,48],"pieces":[
+{"corners":[[0.0,0.0],[32.0,0.0],[32.0,48.0],[0.0,48.0]],"imageFromRay":[[32.0,0.0,-32.0],[0.0,-32.0,-24.0],[0.0,0.0,-1.0]]},
+{"corners":[[32.0,0.0],[64.5,0.0],[32.0,60.25]],"imageFromRay":[[30,0.0,-32.0],[0.0,-32.0,-24.0],[0.125,0.0,-1.0]]}
+]}
+)"},
   };
   return files;
 }

@@ -217,13 +217,16 @@ TEST_F(CameraFileFolder, WhatIsWrittenIsReadAsTheSameCamera) {
   std::vector<NamedCamera> cameras;
   for (const SampleFile& sample : sample_files()) {
     const CameraFile file = CameraFile::parse("sample", sample.text);
-    for (const std::string& name : file.names()) cameras.push_back({name, file.camera(name)});
+    for (const std::string& name : file.names()) {
+      const Camera camera = file.camera(name);
+      if (camera.lens()) cameras.push_back({name, camera});
+    }
   }
   for (const LensModel& model : lens_models()) cameras.push_back({model.info.name, make_camera(model.info.example)});
   cameras.push_back({"panorama", make_camera("equirectangular:width=2000,height=1000")});
   std::map<std::string, int> written;
   for (const CameraFormat* format : camera_formats()) {
-    if (!format->write) continue;
+    if (!format->write || format == &pieces_format) continue;
     for (const NamedCamera& camera : cameras) {
       // The formats that are written hold no angle at which a lens ends but its own.
       Lens lens = *camera.camera.lens();

@@ -59,24 +59,38 @@ std::optional<glm::dvec3> Lens::unproject(const glm::dvec2& pixel) const {
   return flip_frame(direction);
 }
 
-ImageSize Camera::size() const { return lens() ? lens()->size : ray_map()->size; }
+ImageSize Camera::size() const {
+  if (lens()) return lens()->size;
+  return pieces() ? pieces()->size() : ray_map()->size;
+}
 
 const RayMap* Camera::ray_map() const {
   const auto* map = std::get_if<std::shared_ptr<const RayMap>>(&form_);
   return map ? map->get() : nullptr;
 }
 
+const PieceSet* Camera::pieces() const {
+  const auto* set = std::get_if<std::shared_ptr<const PieceSet>>(&form_);
+  return set ? set->get() : nullptr;
+}
+
+const char* Camera::kind() const {
+  if (lens()) return lens()->model->info.name;
+  return pieces() ? "pieces" : "ray map";
+}
+
 std::optional<glm::dvec2> Camera::project(const glm::dvec3& direction) const {
-  if (!lens()) {
-    throw CommandError(
-        "a ray map has a ray for each pixel but no formula that takes a direction to a pixel; use a "
-        "lens, or a technique that needs no projection");
-  }
-  return lens()->project(direction);
+  if (lens()) return lens()->project(direction);
+  if (pieces()) return pieces()->project(direction);
+  throw CommandError(
+      "a ray map has a ray for each pixel but no formula that takes a direction to a pixel; use a "
+      "lens, or a technique that needs no projection");
 }
 
 std::optional<Ray> Camera::unproject(const glm::dvec2& pixel) const {
-  const auto direction = lens() ? lens()->unproject(pixel) : ray_map()->unproject(pixel);
+  const auto direction = lens()     ? lens()->unproject(pixel)
+                         : pieces() ? pieces()->unproject(pixel)
+                                    : ray_map()->unproject(pixel);
   if (!direction) return {};
   return Ray{.origin = glm::dvec3(0.0), .direction = *direction};
 }
@@ -86,8 +100,8 @@ double Camera::pixels_per_radian() const {
   if (!point) return 0.0;
   const glm::dvec3 here = unproject(*point)->direction;
   double density = 0.0;
-  // A ray map is linear within a pixel; a lens is differentiated more closely.
-  const double step = lens() ? 1e-3 : 1.0;
+  // A ray map is linear within a pixel; what is smooth is differentiated more closely.
+  const double step = ray_map() ? 1.0 : 1e-3;
   for (const glm::dvec2 axis : {glm::dvec2(step, 0.0), glm::dvec2(0.0, step)}) {
     for (const glm::dvec2& offset : {axis, -axis}) {
       const auto there = unproject(*point + offset);

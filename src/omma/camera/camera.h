@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "omma/camera/lens_model.h"
+#include "omma/camera/pieces/piece_set.h"
 #include "omma/math/ray.h"
 
 namespace omma {
@@ -50,13 +51,17 @@ class Camera {
  public:
   explicit Camera(Lens lens) : form_(std::move(lens)) {}
   explicit Camera(RayMap map) : form_(std::make_shared<const RayMap>(std::move(map))) {}
+  explicit Camera(PieceSet pieces) : form_(std::make_shared<const PieceSet>(std::move(pieces))) {}
 
   ImageSize size() const;
-  /// Null for a ray map: it has rays but no formula to project with.
+  /// Exactly one of the three is not null.
   const Lens* lens() const { return std::get_if<Lens>(&form_); }
   const RayMap* ray_map() const;
+  const PieceSet* pieces() const;
+  /// What it is, for people: its lens's name, "ray map" or "pieces".
+  const char* kind() const;
 
-  /// Throws CommandError when the camera is a ray map.
+  /// Throws CommandError when the camera is a ray map: it has rays but no formula to project with.
   std::optional<glm::dvec2> project(const glm::dvec3& direction) const;
   /// In the camera frame.
   std::optional<Ray> unproject(const glm::dvec2& pixel) const;
@@ -65,24 +70,25 @@ class Camera {
   /// other images are matched to. 0 when no pixel has a ray.
   double pixels_per_radian() const;
 
-  /// Ray maps are equal when they are the same one.
+  /// Ray maps are equal when they are the same one, and so are pieces.
   friend bool operator==(const Camera&, const Camera&) = default;
 
  private:
-  std::variant<Lens, std::shared_ptr<const RayMap>> form_;
+  std::variant<Lens, std::shared_ptr<const RayMap>, std::shared_ptr<const PieceSet>> form_;
 };
 
 /// The camera of a text: `equidistant:fov_deg=180`, `opencv_fisheye:fx=…,fy=…,…`, or the name of a `.npy` file with
-/// H x W x 3 directions, or a calibration file, `FILE` or `FILE#CAMERA` (docs/camera-files.md). docs/cameras.md lists
-/// names and parameters.
+/// H x W x 3 directions, or a calibration file or one of pieces, `FILE` or `FILE#CAMERA` (docs/camera-files.md).
+/// docs/cameras.md lists names and parameters.
 ///
 /// `size` is the image asked for, if any. A camera with its own size (`width=`, `height=`) is scaled to it, which needs
-/// the same shape; a ray map has the size it has. Without either the image is 1600 x 1200.
+/// the same shape; a ray map and pieces have the size they have. Without either the image is 1600 x 1200.
 /// Throws CommandError for the text, InputError for a file.
 Camera make_camera(std::string_view text, std::optional<ImageSize> size = std::nullopt);
 
 /// A text from which make_camera makes the same camera: focal lengths and principal point in pixels, image size, and
-/// whatever differs from the lens's defaults; for a ray map its file. Throws CommandError for a ray map without one.
+/// whatever differs from the lens's defaults; for a ray map or pieces their file. Throws CommandError where there is
+/// none.
 std::string to_text(const Camera& camera);
 
 /// No image has more pixels along a side.

@@ -300,8 +300,15 @@ Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
     return Camera(std::move(map));
   }
   if (const auto file = camera_file_text(text)) {
-    Lens lens = *load_camera(*file).lens();
-    if (size && *size != lens.size) rescale(text, lens, *size);
+    const Camera camera = load_camera(*file);
+    if (!size || *size == camera.size()) return camera;
+    if (!camera.lens()) {
+      throw CommandError(
+          "{}: the pieces are of an image of {} x {} pixels and {} x {} was asked for; leave the size away", text,
+          camera.size().width, camera.size().height, size->width, size->height);
+    }
+    Lens lens = *camera.lens();
+    rescale(text, lens, *size);
     return Camera(std::move(lens));
   }
   Spec spec = parse_spec(text);
@@ -310,8 +317,9 @@ Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
     std::vector<std::string> names;
     for (const LensModel& known : lens_models()) names.emplace_back(known.info.name);
     for (const DeformationInfo& known : deformations()) names.emplace_back(known.name);
-    throw CommandError("{}; or the name of a ray map, a .npy file, or of a calibration file, FILE or FILE#CAMERA",
-                       unknown_name("camera", spec.name, names));
+    throw CommandError(
+        "{}; or the name of a ray map, a .npy file, of a calibration file, FILE or FILE#CAMERA, or of pieces, .json",
+        unknown_name("camera", spec.name, names));
   }
   return make_lens_camera(*model, std::move(spec), size);
 }
@@ -319,8 +327,9 @@ Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
 std::string to_text(const Camera& camera) {
   const Lens* lens = camera.lens();
   if (!lens) {
-    const std::string& source = camera.ray_map()->source;
-    if (source.empty()) throw CommandError("a ray map that comes from no file cannot be written as text");
+    const std::string& source = camera.pieces() ? camera.pieces()->source() : camera.ray_map()->source;
+    if (source.empty())
+      throw CommandError("a {} camera that comes from no file cannot be written as text", camera.kind());
     return source;
   }
   const LensInfo& info = lens->model->info;

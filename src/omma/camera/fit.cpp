@@ -21,8 +21,8 @@ struct Sample {
 // Pixels with a ray on a grid over the image, about `side` along the longer side; edges and corners included.
 std::vector<Sample> samples_of(const Camera& camera, int side) {
   const ImageSize size = camera.size();
-  // A ray map holds the rays of pixels' centres; a lens has them up to the edges.
-  const double margin = camera.lens() ? 0.0 : 0.5;
+  // A ray map holds the rays of pixels' centres; others have them up to the edges.
+  const double margin = camera.ray_map() ? 0.5 : 0.0;
   const glm::dvec2 extent(size.width - 2.0 * margin, size.height - 2.0 * margin);
   const double step = std::max(extent.x, extent.y) / side;
   const auto count = [&](double length) { return std::max(2, static_cast<int>(std::ceil(length / step)) + 1); };

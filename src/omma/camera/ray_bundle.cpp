@@ -22,7 +22,8 @@ RayMap sample(const Form& form, const PixelRect& region, const glm::dvec2& shift
 }  // namespace
 
 RayMap rays_of(const Camera& camera, const PixelRect& region, const glm::dvec2& shift) {
-  return camera.lens() ? sample(*camera.lens(), region, shift) : sample(*camera.ray_map(), region, shift);
+  if (camera.lens()) return sample(*camera.lens(), region, shift);
+  return camera.pieces() ? sample(*camera.pieces(), region, shift) : sample(*camera.ray_map(), region, shift);
 }
 
 RayMap rays_of(const Camera& camera) { return rays_of(camera, {0, 0, camera.size().width, camera.size().height}); }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "omma/camera/ray_bundle.h"
+
 namespace omma {
 
 gl::Defines camera_defines(const Camera& camera) {
-  if (camera.ray_map() != nullptr) return {{"RAY_MAP", "1"}};
+  if (camera.lens() == nullptr) return {{"RAY_MAP", "1"}};
   const std::string name = camera.lens()->model->info.name;
   return {{"LENS", name}, {"LENS_PROJECT", name + "_project"}, {"LENS_UNPROJECT", name + "_unproject"}};
 }
@@ -24,9 +26,10 @@ void set_camera(const gl::Program& program, const View& view) {
 }
 
 void RayMapTexture::bind(const Camera& camera) {
-  const RayMap* map = camera.ray_map();
-  if (map == nullptr) return;
+  if (camera.lens() != nullptr) return;
   if (camera_ != camera) {
+    const RayMap of_pieces = camera.pieces() ? rays_of(camera) : RayMap{};
+    const RayMap* map = camera.pieces() ? &of_pieces : camera.ray_map();
     texture_ = gl::Texture::image(GL_RGBA32F, map->size);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(texture_.id(), 0, 0, 0, map->size.width, map->size.height, GL_RGB, GL_FLOAT,

@@ -18,7 +18,8 @@ gl::Defines camera_defines(const Camera& camera);
 /// Sets the camera and the view's tile. A ray map's texture is bound by RayMapTexture.
 void set_camera(const gl::Program& program, const View& view);
 
-/// Keeps the ray map of the last camera on the GPU and binds it to unit 8; does nothing for a lens.
+/// Keeps the ray map of the last camera, for pieces the rays of their pixels' centres, on the GPU and binds it to unit
+/// 8; does nothing for a lens.
 class RayMapTexture {
  public:
   void bind(const Camera& camera);

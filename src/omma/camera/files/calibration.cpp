@@ -145,7 +145,7 @@ void refuse_lens(const NamedCamera& camera, const char* format, std::string_view
     }
   }
   throw CommandError("{}: {} files have no place for {}{}; they hold {}: convert it with --model", camera.name, format,
-                     lens ? lens->model->info.name : "a ray map", values, accepted);
+                     camera.camera.kind(), values, accepted);
 }
 
 const Lens& lens_to_write(const NamedCamera& camera, const char* format) {

@@ -12,8 +12,8 @@ namespace omma {
 namespace {
 
 // Real calibrations come to a few hundred kilobytes, those with a pose for each of thousands of pictures to a few
-// megabytes.
-constexpr size_t max_bytes = size_t{16} << 20;
+// megabytes, a camera of a hundred thousand pieces to thirty.
+constexpr size_t max_bytes = size_t{64} << 20;
 
 // What a message quotes of a file's content.
 std::string quoted(std::string_view text) {

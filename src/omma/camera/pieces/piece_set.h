@@ -17,12 +17,17 @@ namespace omma {
 /// Corners of pieces lie on this grid, in parts of a pixel: whose a sample is, is decided in whole numbers.
 inline constexpr int piece_grid = 256;
 
+/// They lie no further than this from the image's origin along either axis, pixels: what is computed of whole numbers
+/// then fits 64 bits.
+inline constexpr int max_piece_corner = 131072;
+
 /// One perspective part of an image: what `imageFromRay` shows within a convex polygon.
 struct Piece {
-  int corner_count = 4;                  ///< 3 or 4
-  std::array<glm::dvec2, 4> corners{};   ///< pixels, multiples of 1 / piece_grid, clockwise as seen (y is down)
-  /// (x w, y w, w) of a direction in the camera frame, (x, y) its pixel. w is positive for what the piece sees, and a
-  /// point that neighbours see on their common border has the same w in both: 1 / w serves as depth.
+  int corner_count = 4;                 ///< 3 or 4
+  std::array<glm::dvec2, 4> corners{};  ///< pixels, multiples of 1 / piece_grid, clockwise as seen (y is down)
+  /// (x w, y w, w) of a direction in the camera frame, (x, y) its pixel. w is positive for what the piece sees (the
+  /// negative matrix sees the opposite), and a point that neighbours see on their common border has the same w in both
+  /// where approximate() made them: 1 / w serves as depth.
   glm::dmat3 imageFromRay{1.0};
   friend bool operator==(const Piece&, const Piece&) = default;
 };
@@ -38,19 +43,22 @@ bool owns(const Piece& piece, const glm::i64vec2& place);
 class PieceSet {
  public:
   PieceSet() = default;
-  /// Throws CommandError, beginning with `source`, for a piece that is no convex clockwise polygon on the grid, has a
-  /// singular matrix, or sees any of its corners with w <= 0; and for a set without pieces.
+  /// Throws CommandError, beginning with `source`, for a piece that is no convex clockwise polygon on the grid or has a
+  /// singular matrix; for a set without pieces, and for one that covers the image hundreds of times over.
   PieceSet(ImageSize size, std::vector<Piece> pieces, std::string source = "");
 
   ImageSize size() const { return size_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
   const std::string& source() const { return source_; }  ///< the file it was read from, if any
 
-  /// Number of the piece that a point of the image, rounded to the grid, belongs to.
+  /// Number of the piece that a point, rounded to the grid, belongs to: of the image, or up to bin_side beside it where
+  /// pieces reach further.
   std::optional<uint32_t> owner(const glm::dvec2& pixel) const;
-  /// Unit direction in the camera frame.
+  /// Unit direction in the camera frame. The image's right and bottom edges, which no piece need own, show what is next
+  /// to them.
   std::optional<glm::dvec3> unproject(const glm::dvec2& pixel) const;
-  /// Pixel of a direction: of the first piece that shows it. Looks at every piece.
+  /// Pixel of a direction: of the first piece that shows it. Looks at every piece. Finds what unproject gave, also
+  /// where rounding has moved it across a border.
   std::optional<glm::dvec2> project(const glm::dvec3& direction) const;
 
   /// Ray (any length) of a pixel as the piece shows it; linear in (x, y, 1).
@@ -69,7 +77,7 @@ class PieceSet {
   friend bool operator==(const PieceSet&, const PieceSet&) = default;
 
  private:
-  void fill_bins();
+  void fill_bins(const std::string& beginning);
   void find_contested();
 
   ImageSize size_;
