@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 /// As typed.
 struct Options {
   std::string scene, camera, technique = "auto";
-  Text size, samples, filter, background, face_size, tile, stats;
+  Text size, samples, filter, background, face_size, tile, tolerance, pieces, stats;
   ViewOptions view;
   std::vector<std::string> outputs;
   bool overwrite = false;
@@ -66,6 +66,8 @@ RenderOptions render_options_of(const Options& options) {
   if (options.filter) result.filter = filter_of(*options.filter);
   if (options.background) result.background = background_of(*options.background);
   if (options.face_size) result.face_size = count_of("--face-size", *options.face_size, 1, max_image_side);
+  if (options.tolerance) result.pieces.tolerance_px = number_of("--tolerance", *options.tolerance, 0.01, 100.0);
+  if (options.pieces) result.pieces.count = count_of("--pieces", *options.pieces, 1, 1000000);
   if (options.tile) result.tile = count_of("--tile", *options.tile, 16, max_image_side);
   return result;
 }
@@ -267,6 +269,9 @@ void add_render(CLI::App& tool) {
   add(picture, "--background", "sky|R,G,B", options->background, "Where nothing is: a sky (default) or linear RGB");
   add(picture, "--face-size", "N", options->face_size,
       "image-based: texels along a cube face, default the camera's density at its centre");
+  add(picture, "--tolerance", "PX", options->tolerance,
+      "piecewise: how far pieces may be from the camera, pixels, default 0.25");
+  add(picture, "--pieces", "N", options->pieces, "piecewise: about so many pieces of equal size instead");
   add(picture, "--tile", "N", options->tile, "Largest tile in pixels, default what the driver allows");
   const char* view = "View (without any: the scene's first camera, else its default view)";
   add(view, "--from", "X,Y,Z", options->view.from, "Where the camera stands, world metres, +Y up");

@@ -26,6 +26,8 @@ Json to_json(const FrameStats& frame) {
       {"fragments_shaded", fragments},
       {"samples_kept", render.samples_kept},
       {"buffer_bytes", render.buffer_bytes},
+      {"pieces", render.pieces},
+      {"piece_error_px", render.piece_error_px},
       {"tiles", render.tiles},
       {"passes", render.passes},
       {"render_ms", frame.render_ms},

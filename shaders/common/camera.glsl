@@ -6,7 +6,11 @@
 
 uniform vec2 pixel_offset;  // the tile's corner and the sub-pixel shift of this pass
 
-#ifdef RAY_MAP
+#ifdef PIECE_CAMERA
+
+#include "common/piece_camera.glsl"
+
+#elif defined(RAY_MAP)
 
 layout(binding = 8) uniform sampler2D ray_map;  // xyz; zero where there is no ray
 
@@ -79,6 +83,21 @@ vec3 per_pixel(bool has_before, vec3 before, bool has_after, vec3 after) {
   return has_before ? 2.0 * before : has_after ? 2.0 * after : vec3(0.0);
 }
 
+#ifdef PIECE_CAMERA
+// Analytic: a piece's rays are linear in the pixel, and its neighbours' need not continue them.
+PixelRay camera_ray(vec2 pixel) {
+  PixelRay ray;
+  int piece = camera_piece(pixel);
+  ray.valid = piece >= 0;
+  mat3 rayFromImage = camera_rayFromImage(max(piece, 0));
+  vec3 along = rayFromImage * vec3(pixel, 1.0);
+  float scale = 1.0 / length(along);
+  ray.direction = along * scale;
+  ray.dx = (rayFromImage[0] - ray.direction * dot(ray.direction, rayFromImage[0])) * scale;
+  ray.dy = (rayFromImage[1] - ray.direction * dot(ray.direction, rayFromImage[1])) * scale;
+  return ray;
+}
+#else
 // Central differences over one pixel.
 PixelRay camera_ray(vec2 pixel) {
   PixelRay ray;
@@ -92,3 +111,4 @@ PixelRay camera_ray(vec2 pixel) {
   ray.dy = per_pixel(has_up, ray.direction - up, has_down, down - ray.direction);
   return ray;
 }
+#endif

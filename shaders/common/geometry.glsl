@@ -9,8 +9,9 @@ layout(std430, binding = 0) readonly buffer InstanceBlock { InstanceRecord insta
 
 vec3 to_camera(InstanceRecord instance, vec3 point) {
   vec4 p = vec4(point, 1.0);
-  return vec3(dot(instance.cameraFromObject[0], p), dot(instance.cameraFromObject[1], p),
-              dot(instance.cameraFromObject[2], p));
+  precise vec3 seen = vec3(dot(instance.cameraFromObject[0], p), dot(instance.cameraFromObject[1], p),
+                           dot(instance.cameraFromObject[2], p));
+  return seen;
 }
 
 vec3 direction_to_camera(InstanceRecord instance, vec3 direction) {

@@ -49,6 +49,7 @@ class Program {
   void set(const char* name, int value) const { glProgramUniform1i(id(), location(name), value); }
   void set(const char* name, unsigned value) const { glProgramUniform1ui(id(), location(name), value); }
   void set(const char* name, float value) const { glProgramUniform1f(id(), location(name), value); }
+  void set(const char* name, glm::ivec2 value) const { glProgramUniform2iv(id(), location(name), 1, &value[0]); }
   void set(const char* name, glm::vec2 value) const { glProgramUniform2fv(id(), location(name), 1, &value[0]); }
   void set(const char* name, glm::vec3 value) const { glProgramUniform3fv(id(), location(name), 1, &value[0]); }
   void set(const char* name, glm::vec4 value) const { glProgramUniform4fv(id(), location(name), 1, &value[0]); }
@@ -63,6 +64,12 @@ class Program {
   }
   void set(const char* name, std::span<const float> values) const {
     glProgramUniform1fv(id(), location(name), GLsizei(values.size()), values.data());
+  }
+  void set(const char* name, std::span<const unsigned> values) const {
+    glProgramUniform1uiv(id(), location(name), GLsizei(values.size()), values.data());
+  }
+  void set(const char* name, std::span<const glm::ivec2> values) const {
+    glProgramUniform2iv(id(), location(name), GLsizei(values.size()), &values[0][0]);
   }
   void set(const char* name, std::span<const glm::vec2> values) const {
     glProgramUniform2fv(id(), location(name), GLsizei(values.size()), &values[0][0]);

@@ -12,21 +12,26 @@
 
 namespace omma {
 
-/// LENS, LENS_PROJECT, LENS_UNPROJECT, or RAY_MAP. Matches shaders/common/camera.glsl.
+/// LENS, LENS_PROJECT and LENS_UNPROJECT, or RAY_MAP, or PIECE_CAMERA. Matches shaders/common/camera.glsl.
 gl::Defines camera_defines(const Camera& camera);
 
-/// Sets the camera and the view's tile. A ray map's texture is bound by RayMapTexture.
+/// Sets the camera and the view's tile. What is too large for uniforms is bound by CameraTextures.
 void set_camera(const gl::Program& program, const View& view);
 
-/// Keeps the ray map of the last camera, for pieces the rays of their pixels' centres, on the GPU and binds it to unit
-/// 8; does nothing for a lens.
-class RayMapTexture {
+/// Keeps the last camera's rays or pieces on the GPU and binds them, rays to unit 8, pieces to units 8, 12 and 13; does
+/// nothing for a lens.
+class CameraTextures {
  public:
   void bind(const Camera& camera);
 
  private:
-  std::optional<Camera> camera_;  ///< kept alive: another map may not come to lie at its address
-  gl::Texture texture_;
+  void upload(const RayMap& map);
+  void upload(const PieceSet& pieces);
+
+  std::optional<Camera> camera_;  ///< kept alive: another one may not come to lie at its address
+  gl::Texture rays_;
+  gl::Buffer pieces_, bin_first_, bin_pieces_;
+  gl::Texture piece_texels_, bin_first_texels_, bin_pieces_texels_;
 };
 
 /// Programs by what they are made of. Compiling takes longer than a frame; nothing is compiled twice.

@@ -19,7 +19,7 @@ void DrawTools::multisampled(const View& view, const Target& target, const std::
 
 void DrawTools::draw_background(const View& view) {
   scene.bind();
-  ray_map.bind(view.camera);
+  camera_textures.bind(view.camera);
   gl::Defines defines = camera_defines(view.camera);
   if (!view.labels()) defines["OUTPUT_COLOR"] = "0";
   const gl::Program& program = programs.get(

@@ -5,6 +5,7 @@
 #include "omma/base/error.h"
 #include "omma/base/names.h"
 #include "omma/technique/image_based/image_based.h"
+#include "omma/technique/piecewise/piecewise.h"
 #include "omma/technique/planar/planar.h"
 #include "omma/technique/raycast/raycast.h"
 #include "omma/technique/vertex/vertex.h"
@@ -13,10 +14,7 @@ namespace omma {
 namespace {
 
 const TechniqueEntry* const entries[] = {
-    &planar_technique,
-    &image_based_technique,
-    &vertex_technique,
-    &raycast_technique,
+    &planar_technique, &image_based_technique, &vertex_technique, &piecewise_technique, &raycast_technique,
 };
 
 /// Throws CommandError for a name or variant that does not exist.

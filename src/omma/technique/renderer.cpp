@@ -34,7 +34,11 @@ Passes plan_passes(int samples, bool multisamples, int driver_samples) {
   const int count = (samples + passes.samples - 1) / passes.samples;
   // The driver's own sample positions are spread over the pixel; a pass shifts them within the gap between two.
   const double gap = 1.0 / std::sqrt(double(passes.samples));
-  for (int i = 0; i < count; ++i) passes.shifts.push_back(count == 1 ? glm::dvec2(0.0) : gap * spread_point(i));
+  for (int i = 0; i < count; ++i) {
+    // On the grid of pieces, where it is decided in whole numbers whose a sample is.
+    const glm::dvec2 shift = glm::round(gap * spread_point(i) * double(piece_grid)) / double(piece_grid);
+    passes.shifts.push_back(count == 1 ? glm::dvec2(0.0) : shift);
+  }
   return passes;
 }
 
@@ -199,6 +203,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
     View view{.camera = camera, .worldFromCamera = worldFromCamera, .tile = tile};
     view.filter = options.filter;
     view.face_size = options.face_size;
+    view.pieces = options.pieces;
     if (pictures.contains(Channel::color)) {
       paste(parts.draw_color(technique, view, passes), tile, pictures.at(Channel::color));
     }
@@ -218,6 +223,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
     stats->tiles = int(tiles.size());
     stats->passes = pictures.contains(Channel::color) ? int(passes.shifts.size()) : 0;
     stats->stage_ms = std::move(stages);
+    technique.report(*stats);
   }
   return pictures;
 }

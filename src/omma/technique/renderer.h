@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "omma/camera/camera.h"
+#include "omma/camera/pieces/approximate.h"
 #include "omma/image/image.h"
 #include "omma/scene/scene.h"
 
@@ -22,8 +23,9 @@ struct RenderOptions {
   std::string technique = "auto";  ///< `name` or `name:variant`, see techniques()
   int samples = 4;                 ///< colour samples per pixel, 1 to 1024
   Filter filter = Filter::anisotropic;
-  int face_size = 0;  ///< image-based: texels along a cube face, 0: the camera's density at its centre
-  int tile = 0;       ///< largest tile's side in pixels, 0: what the driver allows
+  int face_size = 0;      ///< image-based: texels along a cube face, 0: the camera's density at its centre
+  PieceOptions pieces{};  ///< piecewise: how finely the camera is cut
+  int tile = 0;           ///< largest tile's side in pixels, 0: what the driver allows
   std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
 };
 
@@ -36,6 +38,8 @@ struct RenderStats {
   std::optional<uint64_t> fragments_shaded;  ///< for surfaces; nothing where the driver does not count
   uint64_t samples_kept = 0;                 ///< of those, samples that passed the depth test and were no hole
   size_t buffer_bytes = 0;                   ///< on the GPU: geometry, textures, targets
+  size_t pieces = 0;                         ///< piecewise: that make up the image
+  double piece_error_px = 0.0;               ///< piecewise: from the camera, at most
   int tiles = 0;
   int passes = 0;  ///< colour passes accumulated
   std::vector<std::pair<std::string, double>> stage_ms;

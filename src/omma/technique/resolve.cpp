@@ -44,7 +44,7 @@ void Resolver::draw(const View& view, const VisibleTriangles& visible, bool blen
   texture_.bind(4);
   tools_.scene.bind();
   tools_.scene.bind_vertex_textures();
-  tools_.ray_map.bind(view.camera);
+  tools_.camera_textures.bind(view.camera);
 
   // Each pixel's material becomes its depth; squares drawn at a material's depth then meet only that material's pixels.
   glEnable(GL_DEPTH_TEST);

@@ -20,7 +20,7 @@ struct DrawTools {
   const gl::Context& context;
   const GpuScene& scene;
   ProgramCache programs{};
-  RayMapTexture ray_map{};
+  CameraTextures camera_textures{};
   gl::StageTimer timer{context.software()};
   gl::Counters counters{};  ///< of what surfaces cost, full-screen passes apart
   gl::VertexArray no_vertices = gl::create_vertex_array();
@@ -51,6 +51,9 @@ class Technique {
 
   /// The scene has changed: what was derived from it must be derived again.
   virtual void scene_changed() {}
+
+  /// Adds what only this technique knows of its last picture.
+  virtual void report(RenderStats&) const {}
 
   /// On the GPU or beside it, beyond the scene and the target.
   virtual size_t buffer_bytes() const { return 0; }

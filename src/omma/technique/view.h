@@ -20,6 +20,7 @@ struct View {
   int samples = 1;                     ///< per pixel in this pass, as far as the technique multisamples
   Filter filter = Filter::anisotropic;
   int face_size = 0;
+  PieceOptions pieces{};
 
   bool labels() const { return outputs.front() != Channel::color; }
   bool anisotropic() const { return filter == Filter::anisotropic; }

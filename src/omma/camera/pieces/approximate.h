@@ -17,6 +17,7 @@ struct PieceError {
 struct PieceOptions {
   double tolerance_px = 0.25;  ///< 0.01 to 100
   int count = 0;               ///< above 0: about so many pieces of equal size, whatever the error
+  friend bool operator==(const PieceOptions&, const PieceOptions&) = default;
 };
 
 struct Approximation {

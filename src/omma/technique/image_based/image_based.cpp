@@ -247,7 +247,7 @@ class ImageBased : public Technique {
     }
     target.begin();
     tools_.scene.bind();
-    tools_.ray_map.bind(view.camera);
+    tools_.camera_textures.bind(view.camera);
     for (size_t i = 0; i < view.outputs.size(); ++i) {
       const ChannelInfo& info = channel_info(view.outputs[i]);
       gl::Defines defines = camera_defines(view.camera);

@@ -1,0 +1,13 @@
+// One of an item's three vertices, fetched by number, into a piece.
+#include "technique/piecewise/scene_triangle.glsl"
+#include "technique/piecewise/piece_vertex.glsl"
+
+void pull_vertex(uint item, uint piece, int corner_number) {
+  InstanceRecord instance;
+  uint corner = item_corners(item, instance)[corner_number];
+  PartRecord part = parts[item_part(item)];
+  vec3 position = corner_position(instance, corner);
+  write_vertex(instance, position, texelFetch(attributes, int(corner)), texelFetch(colors, int(corner)),
+               uvec2(part.instance, part.first_triangle + item_triangle(item)));
+  place_vertex(piece, position);
+}

@@ -1,0 +1,35 @@
+// The scene's triangles by number, for stages that are not given vertices.
+#include "common/geometry.glsl"
+
+layout(binding = 5) uniform samplerBuffer positions;
+layout(binding = 6) uniform usamplerBuffer attributes;
+layout(binding = 7) uniform samplerBuffer colors;
+layout(binding = 9) uniform usamplerBuffer triangles;
+
+// A part of an instance, as technique/gpu_scene.h has them, of 1024 triangles at most.
+struct PartRecord {
+  uint instance;
+  uint first_triangle;  // id
+  uint count;
+  float cull_sign;  // 1: faces that turn away are left out; -1: in a mirrored instance; 0: none is
+};
+
+layout(std430, binding = 4) readonly buffer PartBlock { PartRecord parts[]; };
+
+// An item is a triangle of a part: both numbers in one.
+const uint ITEM_BITS = 10u;
+uint item_of(uint part, uint triangle) { return part << ITEM_BITS | triangle; }
+uint item_part(uint item) { return item >> ITEM_BITS; }
+uint item_triangle(uint item) { return item & ((1u << ITEM_BITS) - 1u); }
+
+// The vertices' numbers.
+uvec3 item_corners(uint item, out InstanceRecord instance) {
+  PartRecord part = parts[item_part(item)];
+  instance = instances[part.instance];
+  uint id = part.first_triangle + item_triangle(item);
+  return texelFetch(triangles, int(instance.numbers.y + id - instance.numbers.x)).xyz;
+}
+
+vec3 corner_position(InstanceRecord instance, uint corner) {
+  return to_camera(instance, texelFetch(positions, int(corner)).xyz);
+}

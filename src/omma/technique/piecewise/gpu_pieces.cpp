@@ -1,0 +1,270 @@
+#include "omma/technique/piecewise/gpu_pieces.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "omma/technique/target.h"
+
+namespace omma {
+namespace {
+
+/// Pixels by which pieces are enlarged before triangles are clipped to them: far more than rounding moves an edge.
+constexpr double margin = 0.25;
+
+/// std430, as in shaders/technique/piecewise/pieces.glsl.
+struct PieceRecord {
+  glm::vec4 clipFromCamera[3];
+  glm::vec4 plane[4];
+  glm::vec4 ray[4];
+  glm::ivec4 corners[2];
+  glm::ivec4 sides[2];
+  glm::ivec4 flags;
+};
+enum : int { mirrored_flag = 1, wide_flag = 2, contested_flag = 4 };
+
+/// std430, as in shaders/technique/piecewise/coverage.glsl.
+struct NodeRecord {
+  glm::vec4 cone;
+  glm::uvec4 link;
+};
+constexpr uint32_t no_piece = 0xffffffffu;
+constexpr size_t children = 4;
+
+struct Frame {
+  glm::dvec2 corner;  ///< of the tile as the pass samples it, image pixels
+  glm::dvec2 size;
+};
+
+int corner_at(const Piece& piece, int k) { return std::min(k, piece.corner_count - 1); }
+
+/// A side's line in the image: positive on the piece's side, in pixels.
+glm::dvec3 side_line(const Piece& piece, int k) {
+  const glm::dvec2 from = piece.corners[size_t(k)];
+  const glm::dvec2 side = piece.corners[size_t((k + 1) % piece.corner_count)] - from;
+  return glm::dvec3(-side.y, side.x, side.y * from.x - side.x * from.y) / glm::length(side);
+}
+
+/// A corner of the enlarged piece; at sharp ones no farther out than eight margins.
+glm::dvec2 enlarged_corner(const Piece& piece, int k) {
+  const glm::dvec2 before(side_line(piece, (k + piece.corner_count - 1) % piece.corner_count));
+  const glm::dvec2 after(side_line(piece, k));
+  const glm::dvec2 outward = -(before + after);
+  // Along the bisector the lines, moved by the margin, meet where its component along their normals is the margin.
+  const double along = glm::dot(outward, -after);
+  if (along < 1e-9) return piece.corners[size_t(k)];
+  const double length = margin / along;
+  return piece.corners[size_t(k)] + outward * std::min(length, 8.0 * margin / glm::length(outward));
+}
+
+PieceRecord make_record(const PieceSet& set, uint32_t number, const Frame& frame, std::array<glm::dvec3, 4>& planes) {
+  const Piece& piece = set.pieces()[number];
+  PieceRecord record{};
+  const glm::dmat3 rows = glm::transpose(piece.imageFromRay);
+  record.clipFromCamera[0] = glm::vec4((2.0 * (rows[0] - frame.corner.x * rows[2]) / frame.size.x) - rows[2], 0.0);
+  record.clipFromCamera[1] = glm::vec4((2.0 * (rows[1] - frame.corner.y * rows[2]) / frame.size.y) - rows[2], 0.0);
+  record.clipFromCamera[2] = glm::vec4(rows[2], 0.0);
+
+  std::array<glm::ivec2, 4> corners, sides;
+  glm::i64vec2 low(INT64_MAX), high(INT64_MIN);
+  for (int k = 0; k < 4; ++k) {
+    const int at = corner_at(piece, k);
+    glm::dvec3 line = side_line(piece, at);
+    line.z += margin;
+    planes[size_t(k)] = glm::normalize(rows * line);
+    record.plane[k] = glm::vec4(planes[size_t(k)], 0.0);
+    const glm::dvec3 ray = set.rayFromImage(number) * glm::dvec3(enlarged_corner(piece, at), 1.0);
+    record.ray[k] = glm::vec4(glm::normalize(ray), 0.0);
+    const glm::i64vec2 corner = on_piece_grid(piece.corners[size_t(at)] - frame.corner);
+    corners[size_t(k)] = corner;
+    low = glm::min(low, corner);
+    high = glm::max(high, corner);
+  }
+  int64_t longest = 0;
+  for (int k = 0; k < 4; ++k) {
+    const glm::ivec2 side = corners[size_t((k + 1) % 4)] - corners[size_t(k)];
+    const int common = std::max(1, std::gcd(side.x, side.y));
+    sides[size_t(k)] = side / common;
+    longest = std::max<int64_t>({longest, std::abs(sides[size_t(k)].x), std::abs(sides[size_t(k)].y)});
+  }
+  const int64_t reach = std::max(high.x - low.x, high.y - low.y) + 4 * piece_grid;
+  for (int pair = 0; pair < 2; ++pair) {
+    record.corners[pair] = glm::ivec4(corners[size_t(2 * pair)], corners[size_t(2 * pair + 1)]);
+    record.sides[pair] = glm::ivec4(sides[size_t(2 * pair)], sides[size_t(2 * pair + 1)]);
+  }
+  // Positive as for the perspective camera, whose picture has y down where its frame has y up and looks along -z.
+  record.flags.x = (glm::determinant(piece.imageFromRay) > 0.0 ? 0 : mirrored_flag) |
+                   (longest * reach < (int64_t(1) << 29) ? 0 : wide_flag) |
+                   (set.contested(number) ? contested_flag : 0);
+  return record;
+}
+
+uint64_t interleaved(uint32_t value) {
+  uint64_t bits = 0;
+  for (int i = 0; i < 17; ++i) bits |= uint64_t(value >> i & 1u) << (2 * i);
+  return bits;
+}
+
+/// Pieces near each other in the image come one after another.
+uint64_t morton(const Piece& piece) {
+  glm::dvec2 sum(0.0);
+  for (int k = 0; k < piece.corner_count; ++k) sum += piece.corners[size_t(k)];
+  const glm::uvec2 place(glm::clamp(sum / double(piece.corner_count) + 1024.0, 0.0, 131071.0));
+  return interleaved(place.x) | interleaved(place.y) << 1;
+}
+
+/// The node over pieces `first` to `last`, and all below it.
+void add_node(std::vector<NodeRecord>& nodes, const std::vector<PieceRecord>& pieces, size_t first, size_t last) {
+  glm::dvec3 axis(0.0);
+  for (size_t p = first; p < last; ++p) {
+    for (const glm::vec4& ray : pieces[p].ray) axis += glm::dvec3(ray);
+  }
+  axis = glm::length(axis) > 1e-9 ? glm::normalize(axis) : glm::dvec3(0, 0, -1);
+  double cosine = 1.0;
+  for (size_t p = first; p < last; ++p) {
+    for (const glm::vec4& ray : pieces[p].ray) cosine = std::min(cosine, glm::dot(axis, glm::dvec3(ray)));
+  }
+  const size_t number = nodes.size();
+  const bool wide = cosine < 1e-3;
+  const float sine = wide ? 2.0f : float(std::sqrt(std::max(0.0, 1.0 - cosine * cosine)));
+  nodes.push_back({glm::vec4(glm::vec3(axis), sine),
+                   {0, last - first == 1 ? uint32_t(first) : no_piece, std::bit_cast<uint32_t>(float(cosine)), 0}});
+  if (last - first > 1) {
+    const size_t step = (last - first + children - 1) / children;
+    for (size_t begin = first; begin < last; begin += step) {
+      add_node(nodes, pieces, begin, std::min(begin + step, last));
+    }
+  }
+  nodes[number].link.x = uint32_t(nodes.size());
+}
+
+template <typename T>
+void store(gl::Buffer& buffer, const std::vector<T>& values) {
+  const std::span<const T> all(values);
+  if (buffer && buffer.bytes() == all.size_bytes()) {
+    buffer.write(all);
+  } else {
+    buffer = gl::Buffer(all);
+  }
+}
+
+/// Of the bound framebuffer's pixels, in parts of the grid.
+std::vector<glm::ivec2> places_of_samples(int samples) {
+  if (samples <= 1) return {glm::ivec2(piece_grid / 2)};
+  // Asked of a framebuffer of its own: what is bound may be anything.
+  static constexpr Channel channels[] = {Channel::color};
+  const Target target(ImageSize{1, 1}, channels, samples);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  std::vector<glm::ivec2> places;
+  for (int s = 0; s < samples; ++s) {
+    glm::vec2 place;
+    glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(s), &place.x);
+    places.emplace_back(glm::round(place * float(piece_grid)));
+  }
+  return places;
+}
+
+}  // namespace
+
+void GpuPieces::set(std::shared_ptr<const PieceSet> pieces, const View& view) {
+  if (samples_ != view.samples) {
+    samples_ = view.samples;
+    sample_places_ = places_of_samples(view.samples);
+  }
+  if (set_ == pieces && tile_ == view.tile && shift_ == view.shift) return;
+  set_ = std::move(pieces);
+  tile_ = view.tile;
+  shift_ = view.shift;
+
+  std::vector<std::pair<uint64_t, uint32_t>> keys;
+  for (uint32_t i = 0; i < set_->pieces().size(); ++i) {
+    const Piece& piece = set_->pieces()[i];
+    glm::dvec2 low = piece.corners[0], high = low;
+    for (int k = 1; k < piece.corner_count; ++k) {
+      low = glm::min(low, piece.corners[size_t(k)]);
+      high = glm::max(high, piece.corners[size_t(k)]);
+    }
+    const bool reaches = high.x > tile_.x0 - 1 && low.x < tile_.x1 + 1 && high.y > tile_.y0 - 1 && low.y < tile_.y1 + 1;
+    if (reaches) keys.emplace_back(morton(piece), i);
+  }
+  std::sort(keys.begin(), keys.end());
+
+  const Frame frame{glm::dvec2(tile_.x0, tile_.y0) + shift_, glm::dvec2(tile_.width(), tile_.height())};
+  std::vector<PieceRecord> records;
+  std::vector<uint32_t> order;
+  planes_.assign(keys.size(), {});
+  mirrored_.clear();
+  overlapping_ = false;
+  for (const auto& [key, number] : keys) {
+    records.push_back(make_record(*set_, number, frame, planes_[records.size()]));
+    order.push_back(number);
+    mirrored_.push_back((records.back().flags.x & mirrored_flag) != 0);
+    overlapping_ |= (records.back().flags.x & contested_flag) != 0;
+  }
+  any_mirrored_ = std::find(mirrored_.begin(), mirrored_.end(), true) != mirrored_.end();
+  all_mirrored_ = std::find(mirrored_.begin(), mirrored_.end(), false) == mirrored_.end();
+  std::vector<NodeRecord> nodes;
+  if (!records.empty()) add_node(nodes, records, 0, records.size());
+  node_count_ = int(nodes.size());
+  store(records_, records);
+  store(nodes_, nodes);
+  if (overlapping_) fill_bins(order);
+}
+
+void GpuPieces::fill_bins(const std::vector<uint32_t>& order) {
+  std::vector<uint32_t> place(set_->pieces().size(), no_piece);
+  for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  std::vector<uint32_t> first, pieces;
+  for (size_t bin = 0; bin + 1 < set_->bin_first().size(); ++bin) {
+    first.push_back(uint32_t(pieces.size()));
+    for (uint32_t i = set_->bin_first()[bin]; i < set_->bin_first()[bin + 1]; ++i) {
+      if (const uint32_t at = place[set_->bin_pieces()[i]]; at != no_piece) pieces.push_back(at);
+    }
+  }
+  first.push_back(uint32_t(pieces.size()));
+  bin_first_ = gl::Buffer(std::span<const uint32_t>(first));
+  bin_pieces_ = gl::Buffer(std::span<const uint32_t>(pieces));
+  bin_first_texels_ = gl::Texture::of_buffer(GL_R32UI, bin_first_);
+  bin_pieces_texels_ = gl::Texture::of_buffer(GL_R32UI, bin_pieces_);
+}
+
+void GpuPieces::bind() const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, records_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, nodes_.id());
+  if (!overlapping_) return;
+  bin_first_texels_.bind(10);
+  bin_pieces_texels_.bind(11);
+}
+
+gl::Defines GpuPieces::defines() const {
+  gl::Defines defines{{"PIECES", "1"}, {"SAMPLES", std::to_string(samples_)}};
+  if (overlapping_) defines["OVERLAPPING_PIECES"] = "1";
+  return defines;
+}
+
+void GpuPieces::set_uniforms(const gl::Program& program) const {
+  program.set("near_depth", near_depth);
+  program.set("node_count", node_count_);
+  program.set("sample_places", std::span<const glm::ivec2>(sample_places_));
+  if (!overlapping_) return;
+  const glm::dvec2 corner = glm::dvec2(tile_.x0, tile_.y0) + shift_;
+  program.set("bin_origin", glm::ivec2(on_piece_grid(corner + double(PieceSet::bin_side))));
+  program.set("bin_counts", set_->bin_counts());
+  program.set("bin_side", PieceSet::bin_side * piece_grid);
+}
+
+bool GpuPieces::may_show(size_t piece, const glm::dmat4& cameraFromWorld, const Bounds& world) const {
+  int beyond = 15;
+  for (int corner = 0; corner < 8 && beyond != 0; ++corner) {
+    const glm::dvec3 point(corner & 1 ? world.max.x : world.min.x, corner & 2 ? world.max.y : world.min.y,
+                           corner & 4 ? world.max.z : world.min.z);
+    const glm::dvec3 seen(cameraFromWorld * glm::dvec4(point, 1.0));
+    for (int k = 0; k < 4; ++k) {
+      if (glm::dot(planes_[piece][size_t(k)], seen) >= 0.0) beyond &= ~(1 << k);
+    }
+  }
+  return beyond == 0;
+}
+
+}  // namespace omma

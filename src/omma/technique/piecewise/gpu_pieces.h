@@ -1,0 +1,57 @@
+// The pieces that make up a tile, on the GPU: their matrices, what they own, and a tree of cones over them.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "omma/camera/pieces/piece_set.h"
+#include "omma/gl/context.h"
+#include "omma/gl/objects.h"
+#include "omma/gl/program.h"
+#include "omma/math/bounds.h"
+#include "omma/technique/view.h"
+
+namespace omma {
+
+class GpuPieces {
+ public:
+  /// Takes the pieces that reach into the view's tile, as the view's pass samples it.
+  void set(std::shared_ptr<const PieceSet> pieces, const View& view);
+
+  /// Storage blocks 2 and 3, and texture units 10 and 11.
+  void bind() const;
+  /// For shaders/technique/mesh.frag and the vertex stages of technique/piecewise/.
+  gl::Defines defines() const;
+  void set_uniforms(const gl::Program& program) const;
+
+  size_t count() const { return planes_.size(); }
+  /// Of all pieces; one that is mirrored turns the windings of its triangles round.
+  bool any_mirrored() const { return any_mirrored_; }
+  bool all_mirrored() const { return all_mirrored_; }
+  bool is_mirrored(size_t piece) const { return mirrored_[piece]; }
+
+  /// False when a box lies wholly beyond a side of the piece. `cameraFromWorld` is rigid.
+  bool may_show(size_t piece, const glm::dmat4& cameraFromWorld, const Bounds& world) const;
+
+  size_t bytes() const { return records_.bytes() + nodes_.bytes() + bin_first_.bytes() + bin_pieces_.bytes(); }
+
+ private:
+  void fill_bins(const std::vector<uint32_t>& order);
+
+  std::shared_ptr<const PieceSet> set_;
+  PixelRect tile_;
+  glm::dvec2 shift_{0.0};
+  int samples_ = 0;
+  std::vector<glm::ivec2> sample_places_;
+  std::vector<std::array<glm::dvec3, 4>> planes_;  ///< as in the record
+  std::vector<bool> mirrored_;
+  bool any_mirrored_ = false, all_mirrored_ = false, overlapping_ = false;
+  int node_count_ = 0;
+  gl::Buffer records_, nodes_, bin_first_, bin_pieces_;
+  gl::Texture bin_first_texels_, bin_pieces_texels_;
+};
+
+}  // namespace omma

@@ -1,0 +1,123 @@
+#include "omma/technique/piecewise/replicator.h"
+
+#include <algorithm>
+
+#include "omma/base/error.h"
+
+namespace omma {
+namespace {
+
+constexpr uint32_t group_size = 64;       ///< of every compute shader here
+constexpr uint32_t groups_a_row = 32768;  ///< drivers take 65535 at least
+constexpr size_t max_levels = 7;          ///< as in shaders/technique/piecewise/offsets.glsl
+
+uint32_t divided_up(uint32_t value, uint32_t by) { return (value + by - 1) / by; }
+
+void dispatch(uint32_t groups) {
+  if (groups == 0) return;
+  glDispatchCompute(std::min(groups, groups_a_row), divided_up(groups, groups_a_row), 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
+/// Grows by half as much again as is needed, so that a moving camera does not make a new one every frame.
+void reserve(gl::Buffer& buffer, size_t bytes) {
+  if (!buffer || buffer.bytes() < bytes) buffer = gl::Buffer(bytes + bytes / 2);
+}
+
+}  // namespace
+
+void Replicator::replicate_clusters(const GpuPieces& pieces, const SceneClusters& clusters, uint32_t cluster_count) {
+  clusters.bind_clusters();
+  replicate(pieces, clusters, cluster_count, {}, "cluster_count", cluster_count);
+}
+
+void Replicator::replicate_items(const GpuPieces& pieces, const SceneClusters& clusters,
+                                 std::span<const uint32_t> items) {
+  reserve(items_, items.size_bytes());
+  items_.write(items);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, items_.id());
+  replicate(pieces, clusters, divided_up(uint32_t(items.size()), group_size), {{"ITEM_LIST", "1"}}, "item_count",
+            uint32_t(items.size()));
+}
+
+void Replicator::replicate(const GpuPieces& pieces, const SceneClusters& clusters, uint32_t groups, gl::Defines defines,
+                           const char* size_name, uint32_t size) {
+  level_first_.clear();
+  level_sizes_ = {groups * group_size};
+  while (level_sizes_.back() > 1) level_sizes_.push_back(divided_up(level_sizes_.back(), group_size));
+  uint32_t slots = 0;
+  for (uint32_t level_size : level_sizes_) {
+    level_first_.push_back(slots);
+    slots += level_size;
+  }
+  reserve(counts_, slots * sizeof(uint32_t));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, counts_.id());
+  tools_.scene.bind();
+  clusters.bind();
+  pieces.bind();
+
+  const auto run = [&](const gl::Defines& with) {
+    const gl::Program& program = tools_.programs.get({{GL_COMPUTE_SHADER, "technique/piecewise/replicate.comp"}}, with);
+    program.use();
+    pieces.set_uniforms(program);
+    set_levels(program);
+    program.set(size_name, size);
+    dispatch(groups);
+  };
+  tools_.timer.mark("count");
+  run(defines);
+  tools_.timer.mark("sum");
+  sum();
+  glGetNamedBufferSubData(counts_.id(), GLintptr(level_first_.back() * sizeof(uint32_t)), sizeof(uint32_t),
+                          &replica_count_);
+  // A draw's vertices have 32-bit numbers, three to a replica.
+  constexpr uint32_t most = 0x7fffffffu / 3;
+  if (replica_count_ > most) {
+    throw MachineError("{} replicas of triangles are more than one draw holds, {}; ask for fewer pieces",
+                       replica_count_, most);
+  }
+  reserve(replicas_, replica_count_ * sizeof(glm::uvec2));
+  bind();
+  tools_.timer.mark("replicate");
+  defines["WRITE"] = "1";
+  run(defines);
+}
+
+void Replicator::set_levels(const gl::Program& program) const {
+  program.set("level_first", std::span<const uint32_t>(level_first_));
+  program.set("level_sizes", std::span<const uint32_t>(level_sizes_));
+  program.set("level_count", int(level_sizes_.size()));
+}
+
+void Replicator::sum() {
+  const gl::Program& program = tools_.programs.get({{GL_COMPUTE_SHADER, "technique/piecewise/scan.comp"}}, {});
+  program.use();
+  set_levels(program);
+  for (size_t level = 0; level + 1 < level_sizes_.size(); ++level) {
+    program.set("level", int(level));
+    dispatch(divided_up(level_sizes_[level + 1], group_size));
+  }
+}
+
+void Replicator::prepare_draws(std::span<const glm::uvec2> ranges) {
+  reserve(ranges_, ranges.size_bytes());
+  ranges_.write(ranges);
+  constexpr size_t command_bytes = 4 * sizeof(uint32_t);
+  reserve(commands_, ranges.size() * command_bytes);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, ranges_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, commands_.id());
+  const gl::Program& program = tools_.programs.get({{GL_COMPUTE_SHADER, "technique/piecewise/commands.comp"}}, {});
+  program.use();
+  set_levels(program);
+  program.set("range_count", unsigned(ranges.size()));
+  dispatch(divided_up(uint32_t(ranges.size()), group_size));
+}
+
+void Replicator::bind() const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, replicas_.id()); }
+
+void Replicator::draw(size_t range) const {
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
+  glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(range * 4 * sizeof(uint32_t)));
+}
+
+}  // namespace omma

@@ -1,0 +1,47 @@
+// The scene's triangles as the GPU walks through them: parts, and clusters of 64 triangles, sorted by material.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "omma/gl/objects.h"
+#include "omma/technique/gpu_scene.h"
+
+namespace omma {
+
+/// Clusters that are drawn with one program and one set of textures.
+struct ClusterGroup {
+  int material = 0;
+  bool mirrored = false;
+  bool blended = false;
+  uint32_t first_cluster = 0, last_cluster = 0;  ///< the last one excluded
+};
+
+class SceneClusters {
+ public:
+  static constexpr uint32_t cluster_triangles = 64;
+
+  explicit SceneClusters(const GpuScene& scene);
+  /// Takes over deformed vertices and mirrored transforms.
+  void update();
+
+  /// Storage block 4 and the vertices as buffer textures.
+  void bind() const;
+  /// Storage block 5.
+  void bind_clusters() const;
+
+  /// Blended ones last.
+  const std::vector<ClusterGroup>& groups() const { return groups_; }
+  uint32_t cluster_count() const { return cluster_count_; }
+  uint32_t solid_cluster_count() const { return solid_cluster_count_; }
+  size_t bytes() const { return parts_.bytes() + clusters_.bytes(); }
+
+ private:
+  const GpuScene& scene_;
+  std::vector<std::vector<glm::vec4>> spheres_;  ///< of each mesh's clusters, object frame
+  std::vector<ClusterGroup> groups_;
+  uint32_t cluster_count_ = 0, solid_cluster_count_ = 0;
+  gl::Buffer parts_, clusters_;
+};
+
+}  // namespace omma
