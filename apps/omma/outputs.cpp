@@ -43,7 +43,7 @@ std::vector<Output> parse_outputs(const std::vector<std::string>& texts) {
   return outputs;
 }
 
-std::optional<PanoramaPlace> panorama_place(const Camera& camera) {
+std::optional<PanoramaPlace> panorama_place(const Camera& camera, const glm::dmat4& worldFromCamera) {
   const Lens* lens = camera.lens();
   if (!lens || lens->model != find_lens_model("equirectangular")) return std::nullopt;
   // The plane's unit is the radian: the sphere reaches half a turn left and right of the centre, a quarter up and down.
@@ -52,8 +52,10 @@ std::optional<PanoramaPlace> panorama_place(const Camera& camera) {
   const bool inside = corner.x >= 0.0 && corner.y >= 0.0 && corner.x + lens->size.width <= full.x &&
                       corner.y + lens->size.height <= full.y && std::max(full.x, full.y) < 1e6;
   if (!inside) return std::nullopt;
-  return PanoramaPlace{
-      {static_cast<int>(full.x), static_cast<int>(full.y)}, static_cast<int>(corner.x), static_cast<int>(corner.y)};
+  return PanoramaPlace{.full = {static_cast<int>(full.x), static_cast<int>(full.y)},
+                       .left = static_cast<int>(corner.x),
+                       .top = static_cast<int>(corner.y),
+                       .pose = heading_of(glm::dmat3(worldFromCamera) * lens->cameraFromLens)};
 }
 
 }  // namespace omma::tool

@@ -26,6 +26,6 @@ std::vector<Output> parse_outputs(const std::vector<std::string>& texts);
 
 /// Where the picture of an equirectangular camera lies within the whole panorama. Nothing for other cameras, and for a
 /// picture that reaches beyond the poles or the seam behind the camera.
-std::optional<PanoramaPlace> panorama_place(const Camera& camera);
+std::optional<PanoramaPlace> panorama_place(const Camera& camera, const glm::dmat4& worldFromCamera);
 
 }  // namespace omma::tool

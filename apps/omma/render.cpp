@@ -205,12 +205,13 @@ class Job {
     stats.frame = frame.number;
     const Camera camera = camera_of(frame);
     auto begin = std::chrono::steady_clock::now();
+    const glm::dmat4 worldFromCamera = view_.worldFromCamera(scene, frame);
     const std::map<Channel, Image> images =
-        renderer.render(camera, view_.worldFromCamera(scene, frame), channels_, render_options_, &stats.render);
+        renderer.render(camera, worldFromCamera, channels_, render_options_, &stats.render);
     stats.render_ms = milliseconds_since(begin);
 
     begin = std::chrono::steady_clock::now();
-    const std::optional<PanoramaPlace> panorama = panorama_place(camera);
+    const std::optional<PanoramaPlace> panorama = panorama_place(camera, worldFromCamera);
     for (const Output& output : outputs_) {
       const fs::path path = output.path_of(frame.number);
       write_image(path, images.at(output.channel), output.channel, panorama);

@@ -43,6 +43,7 @@ uniform float lens_k[16];
 uniform float lens_max_angle;
 uniform vec2 lens_focal;
 uniform vec2 lens_centre;
+uniform mat3 cameraFromLens;
 
 Params lens_params() {
   return Params(lens_k, lens_max_angle);
@@ -51,13 +52,14 @@ Params lens_params() {
 bool camera_unproject(vec2 pixel, out vec3 direction) {
   vec3 optical;
   bool valid = LENS_UNPROJECT(lens_params(), (pixel - lens_centre) / lens_focal, optical);
-  direction = vec3(optical.x, -optical.y, -optical.z);
+  direction = cameraFromLens * vec3(optical.x, -optical.y, -optical.z);
   return valid;
 }
 
 bool camera_project(vec3 direction, out vec2 pixel) {
   vec2 plane;
-  bool valid = LENS_PROJECT(lens_params(), vec3(direction.x, -direction.y, -direction.z), plane);
+  vec3 in_lens = direction * cameraFromLens;
+  bool valid = LENS_PROJECT(lens_params(), vec3(in_lens.x, -in_lens.y, -in_lens.z), plane);
   pixel = lens_centre + lens_focal * plane;
   return valid;
 }

@@ -36,6 +36,29 @@ TEST_F(DeformationCommand, PanoramasSayWhatPartOfTheSphereTheyShow) {
   EXPECT_EQ(pixels("vr180", "32x32", "half.exr").find("envmap"), std::string::npos);
 }
 
+TEST_F(DeformationCommand, PanoramasSayWhichWayTheyLook) {
+  const auto pose = [&](const std::string& camera, const std::vector<std::string>& view) {
+    std::vector<std::string> words = {"render", "facade",    "--camera", camera, "--size",
+                                      "32x16",  "--samples", "1",        "-o",   "pose.jpg"};
+    words.insert(words.end(), view.begin(), view.end());
+    const ToolResult result = run(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string bytes = read_file(file("pose.jpg"));
+    std::string fields;
+    for (const std::string name : {"Heading", "Pitch", "Roll"}) {
+      const std::string before = "GPano:Pose" + name + "Degrees=\"";
+      const size_t at = bytes.find(before) + before.size();
+      fields += bytes.substr(at, bytes.find('"', at) - at) + " ";
+    }
+    return fields;
+  };
+  const std::vector<std::string> west = {"--from", "0,1,5", "--to", "-3,1,5"};
+  EXPECT_EQ(pose("equirectangular", {"--from", "0,1,5", "--to", "0,1,2"}), "0 0 0 ");
+  EXPECT_EQ(pose("equirectangular", west), "270 0 0 ");
+  EXPECT_EQ(pose("equirectangular:yaw_deg=30,pitch_deg=-20,roll_deg=10", west), "300 -20 10 ");
+  EXPECT_EQ(pose("equirectangular", {"--from", "0,1,5", "--to", "4,5,5"}), "90 45 0 ");
+}
+
 TEST_F(DeformationCommand, AFormulaDrawsWhatItsLensDraws) {
   const FloatImage formula =
       std::get<FloatImage>((pixels("expression:r=theta,fov_deg=180", "40x40", "a.npy"), read_image(file("a.npy"))));

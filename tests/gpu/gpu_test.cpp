@@ -41,6 +41,8 @@ Camera wavy_ray_map(int side) {
 std::vector<NamedCamera> all_cameras(int side) {
   std::vector<NamedCamera> cameras;
   for (const LensModel& model : lens_models()) cameras.push_back({model.info.name, small_camera(model, side)});
+  const ImageSize size{side, side * 3 / 4};
+  cameras.push_back({"turned perspective", make_camera("perspective:yaw_deg=25,pitch_deg=-15,roll_deg=40", size)});
   cameras.push_back({"ray map", wavy_ray_map(side)});
   return cameras;
 }

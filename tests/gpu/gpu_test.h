@@ -29,7 +29,7 @@ Camera as_ray_map(const Camera& camera);
 /// A ray map that no lens makes: tilted, wavy, with a hole.
 Camera wavy_ray_map(int side);
 
-/// Every lens and a ray map, `side` pixels on the longer side.
+/// Every lens, a lens turned within its camera, and a ray map, `side` pixels on the longer side.
 std::vector<NamedCamera> all_cameras(int side);
 
 /// Every technique in every variant, as render takes it.

@@ -137,10 +137,16 @@ INSTANTIATE_TEST_SUITE_P(
         Comparison{"c3x2", "c3x2", {480, 320}}, Comparison{"c6x1", "c6x1", {720, 120}},
         Comparison{"c1x6", "c1x6", {120, 720}}, Comparison{"eac", "eac", {720, 480}, 2},
         Comparison{"octahedron", "octahedron", {240, 240}}, Comparison{"tetrahedron", "tetrahedron", {480, 240}},
+        Comparison{"fisheye:fov_deg=180,yaw_deg=35", "fisheye:h_fov=180:v_fov=180:yaw=35", {240, 240}},
+        Comparison{"sg:fov_deg=180,pitch_deg=-50", "sg:h_fov=180:v_fov=180:pitch=-50", {240, 240}},
+        Comparison{"flat:fov_deg=90,roll_deg=20", "flat:h_fov=90:v_fov=90:roll=20", {240, 240}},
+        Comparison{"e:yaw_deg=100,pitch_deg=40,roll_deg=-25", "e:yaw=100:pitch=40:roll=-25", {480, 240}},
         Comparison{"barrel", "barrel", {600, 240}}, Comparison{"tsp", "tsp", {480, 240}}),
     [](const auto& comparison) {
-      const std::string options = comparison.param.options;
-      return options.substr(0, options.find(':'));
+      std::string name = comparison.param.options;
+      std::ranges::replace_if(
+          name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+      return name;
     });
 
 }  // namespace

@@ -28,12 +28,14 @@ inline double widest_fov_deg(const LensInfo& info) {
   return info.max_fov_inclusive ? info.max_fov_deg : 0.98 * info.max_fov_deg;
 }
 
-/// The lens's own example, and narrow, widest, off-centre and full-frame cameras, in images that are not square.
+/// The lens's own example, and narrow, widest, off-centre, turned and full-frame cameras, in images that are not
+/// square.
 inline std::vector<SampleCamera> sample_cameras(const LensModel& model) {
   const LensInfo& info = model.info;
   std::vector<std::string> texts = {
       info.example,
       fmt::format("{}:fx=90,fy=110,cx=150,cy=121,width=321,height=240", info.name),
+      fmt::format("{}:f=100,width=240,height=200,yaw_deg=130,pitch_deg=-35,roll_deg=70", info.name),
   };
   if (info.max_fov_deg == 0) {
     texts.push_back(fmt::format("{}:width=320,height=240", info.name));

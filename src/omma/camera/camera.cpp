@@ -45,8 +45,9 @@ std::optional<glm::dvec2> Lens::project(const glm::dvec3& direction) const {
   const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
   if (!(largest > 0.0) || !std::isfinite(direction.x + direction.y + direction.z)) return {};
   glm::dvec2 plane;
-  // Scaled so that squares neither overflow nor vanish.
-  if (!model->project(parameters, flip_frame(direction / largest), plane)) return {};
+  // Scaled so that squares neither overflow nor vanish. A rotation's transpose is its inverse.
+  const glm::dvec3 in_lens = (direction / largest) * cameraFromLens;
+  if (!model->project(parameters, flip_frame(in_lens), plane)) return {};
   const glm::dvec2 pixel = centre + focal * plane;
   if (!is_finite(pixel)) return {};
   return pixel;
@@ -56,7 +57,7 @@ std::optional<glm::dvec3> Lens::unproject(const glm::dvec2& pixel) const {
   const glm::dvec2 plane = (pixel - centre) / focal;
   glm::dvec3 direction;
   if (!is_finite(plane) || !model->unproject(parameters, plane, direction)) return {};
-  return flip_frame(direction);
+  return cameraFromLens * flip_frame(direction);
 }
 
 ImageSize Camera::size() const {

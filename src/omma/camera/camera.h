@@ -28,6 +28,7 @@ struct Lens {
   glm::dvec2 focal{1.0};   ///< pixels per unit of the model's plane
   glm::dvec2 centre{0.0};  ///< principal point, pixels from the top-left corner
   LensParameters parameters;
+  glm::dmat3 cameraFromLens{1.0};  ///< a rotation: the lens looks along its own -Z, turned within the camera
   friend bool operator==(const Lens&, const Lens&) = default;
 
   /// Pixel of a direction (any length) in the camera frame. Nothing when the lens does not see it.

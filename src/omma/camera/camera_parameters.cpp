@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "omma/base/error.h"
 #include "omma/base/names.h"
+#include "omma/math/heading.h"
 
 namespace omma {
 namespace {
@@ -28,6 +30,9 @@ constexpr CameraParameterInfo common_parameters[] = {
     {"cx, cy", "middle", "principal point in pixels from the image's top left corner"},
     {"width, height", "the size asked for",
      "pixels; the image that the other values are for. Another size of the same shape scales them"},
+    {"yaw_deg", "0", "degrees that the lens looks to the right of where the camera looks; within a whole turn"},
+    {"pitch_deg", "0", "degrees that it then looks up; 90 for a dome's zenith"},
+    {"roll_deg", "0", "degrees that it is then turned clockwise about its axis, as seen from behind"},
     {"max_angle_deg", "from `fit`", "degrees from the axis beyond which nothing is seen"},
 };
 
@@ -69,6 +74,13 @@ double half_extent(Fit fit, const ImageSize& size) {
       break;
   }
   return std::hypot(width, height);
+}
+
+glm::dmat3 lens_rotation(const std::function<double(const char* key, double limit)>& degrees) {
+  constexpr double radians_per_degree = std::numbers::pi / 180.0;
+  return rotation_of({.yaw = degrees("yaw_deg", 360.0) * radians_per_degree,
+                      .pitch = degrees("pitch_deg", 180.0) * radians_per_degree,
+                      .roll = degrees("roll_deg", 360.0) * radians_per_degree});
 }
 
 glm::dvec2 image_scale(std::string_view what, const ImageSize& own_size, const ImageSize& wanted_size) {

@@ -1,6 +1,7 @@
 // The parameters that every lens takes in a camera's text, besides its own.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <string_view>
@@ -30,6 +31,10 @@ Fit parse_fit(std::string_view what, std::string_view name);
 
 /// Half of an image's extent, in pixels.
 double half_extent(Fit fit, const ImageSize& size);
+
+/// Lens::cameraFromLens of `yaw_deg`, `pitch_deg` and `roll_deg`. `degrees` gives each, 0 where the text has none, and
+/// refuses what lies beyond -limit to limit.
+glm::dmat3 lens_rotation(const std::function<double(const char* key, double limit)>& degrees);
 
 /// What pixel values for an image of `own` size are multiplied by for one of another size but the same shape, up to
 /// rounding to whole pixels. Throws CommandError for another shape; `what` names the width.

@@ -9,6 +9,7 @@
 #include "omma/camera/camera_parameters.h"
 #include "omma/camera/deformation/deformation.h"
 #include "omma/camera/files/camera_file.h"
+#include "omma/math/heading.h"
 
 namespace omma {
 namespace {
@@ -267,6 +268,8 @@ Camera make_lens_camera(const LensModel& model, Spec spec, std::optional<ImageSi
   set_focal_and_angle(text, lens);
   lens.centre = {text.number("cx").value_or(lens.centre.x), text.number("cy").value_or(lens.centre.y)};
   if (size && *size != lens.size) rescale(text.label("width"), lens, *size);
+  lens.cameraFromLens =
+      lens_rotation([&](const char* key, double limit) { return text.number_within(key, -limit, limit, 0.0); });
 
   Camera camera(std::move(lens));
   if (camera.pixels_per_radian() == 0.0) {
@@ -340,6 +343,13 @@ std::string to_text(const Camera& camera) {
                       lens->size.height);
   if (lens->parameters.max_angle != info.max_angle(lens->parameters)) {
     text += fmt::format(",max_angle_deg={}", lens->parameters.max_angle / radians_per_degree);
+  }
+  const Heading heading = heading_of(lens->cameraFromLens);
+  for (const auto& [key, angle] :
+       {std::pair("yaw_deg", heading.yaw), {"pitch_deg", heading.pitch}, {"roll_deg", heading.roll}}) {
+    // As they were typed, not as the rotation's rounding left them.
+    const double degrees = std::round(angle / radians_per_degree * 1e12) / 1e12;
+    if (degrees != 0.0) text += fmt::format(",{}={}", key, degrees);
   }
   for (size_t i = 0; i < info.parameters.size(); ++i) {
     const LensParameterInfo& parameter = info.parameters[i];

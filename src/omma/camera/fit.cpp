@@ -41,6 +41,7 @@ class Problem {
  public:
   Problem(const Camera& camera, const LensModel& model, std::vector<size_t> free)
       : model_(model), size_(camera.size()), samples_(samples_of(camera, 40)), free_(std::move(free)) {
+    if (const Lens* lens = camera.lens()) cameraFromLens_ = lens->cameraFromLens;
     if (samples_.empty()) throw InputError("the camera has no ray that a fit could start from");
     // A ray that is lost costs more than any that lands in the image.
     lost_px_ = std::hypot(size_.width, size_.height);
@@ -59,6 +60,7 @@ class Problem {
     for (const LensParameterInfo& parameter : model_.info.parameters) values.push_back(parameter.default_value);
     for (size_t i = 0; i < free_.size(); ++i) values[free_[i]] = unknowns[4 + i];
     lens.parameters = lens_parameters(model_.info, values);
+    lens.cameraFromLens = cameraFromLens_;
     return lens;
   }
 
@@ -122,6 +124,7 @@ class Problem {
  private:
   const LensModel& model_;
   ImageSize size_;
+  glm::dmat3 cameraFromLens_{1.0};  // the other model is turned as the given lens is
   std::vector<Sample> samples_;
   std::vector<size_t> free_;
   double lost_px_;

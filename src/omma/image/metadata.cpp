@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string_view>
 
 namespace omma {
@@ -36,9 +38,12 @@ std::string gpano_xmp(const PanoramaPlace& place, const ImageSize& size) {
   };
   add("ProjectionType", "equirectangular");
   add("UsePanoramaViewer", "True");
-  add("PoseHeadingDegrees", 0);
-  add("PosePitchDegrees", 0);
-  add("PoseRollDegrees", 0);
+  // To a millionth of a degree; a heading is 0 to 360.
+  const auto degrees = [](double radians) { return std::round(radians * 180e6 / std::numbers::pi) / 1e6 + 0.0; };
+  const double heading = degrees(place.pose.yaw);
+  add("PoseHeadingDegrees", heading < 0.0 ? heading + 360.0 : heading);
+  add("PosePitchDegrees", degrees(place.pose.pitch));
+  add("PoseRollDegrees", degrees(place.pose.roll));
   add("FullPanoWidthPixels", place.full.width);
   add("FullPanoHeightPixels", place.full.height);
   add("CroppedAreaImageWidthPixels", size.width);

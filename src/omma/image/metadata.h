@@ -5,20 +5,21 @@
 #include <string>
 
 #include "omma/image/formats.h"
+#include "omma/math/heading.h"
 #include "omma/math/ray.h"
 
 namespace omma {
 
 /// Where a picture lies within the equirectangular panorama of the whole sphere, in that panorama's pixels. Its middle
-/// is what the camera looks along; a VR180 picture is the middle half.
+/// is what the lens looks along; a VR180 picture is the middle half.
 struct PanoramaPlace {
   ImageSize full;
   int left = 0, top = 0;  ///< of the picture's top left corner
-  friend bool operator==(const PanoramaPlace&, const PanoramaPlace&) = default;
+  Heading pose = {};      ///< in the world, of what the panorama's middle looks along; its -Z is north
 };
 
 /// Google's Photo Sphere XMP (GPano, https://developers.google.com/streetview/spherical-metadata) for a picture of
-/// `size`, its heading, pitch and roll 0.
+/// `size`.
 std::string gpano_xmp(const PanoramaPlace& place, const ImageSize& size);
 
 /// An encoded .jpg or .png with an XMP packet: in an APP1 segment or an iTXt chunk. Other formats come back as they

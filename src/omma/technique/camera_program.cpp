@@ -26,6 +26,7 @@ void set_camera(const gl::Program& program, const View& view) {
   program.set("lens_max_angle", float(lens->parameters.max_angle));
   program.set("lens_focal", glm::vec2(lens->focal));
   program.set("lens_centre", glm::vec2(lens->centre));
+  program.set("cameraFromLens", glm::mat3(lens->cameraFromLens));
 }
 
 void CameraTextures::bind(const Camera& camera) {

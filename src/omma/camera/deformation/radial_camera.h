@@ -25,8 +25,8 @@ struct RadialForm {
 };
 
 /// The keys that make_radial_camera reads.
-inline constexpr std::initializer_list<const char*> radial_keys = {"fov_deg", "fit", "f",     "fx",    "fy",
-                                                                   "cx",      "cy",  "width", "height"};
+inline constexpr std::initializer_list<const char*> radial_keys = {
+    "fov_deg", "fit", "f", "fx", "fy", "cx", "cy", "width", "height", "yaw_deg", "pitch_deg", "roll_deg"};
 
 /// Scales the plane to the image: by `f` (or `fx` and `fy`), or so that `fov_deg`, or else r = 1, spans the extent of
 /// `fit` (shorter).

@@ -151,6 +151,11 @@ void refuse_lens(const NamedCamera& camera, const char* format, std::string_view
 const Lens& lens_to_write(const NamedCamera& camera, const char* format) {
   const Lens* lens = camera.camera.lens();
   if (!lens) refuse_lens(camera, format, "lenses");
+  if (lens->cameraFromLens != glm::dmat3(1.0)) {
+    throw CommandError(
+        "{}: {} files have no place for yaw_deg, pitch_deg and roll_deg; leave them away and turn the camera's pose",
+        camera.name, format);
+  }
   if (lens->parameters.max_angle < lens->model->info.max_angle(lens->parameters)) {
     warn(fmt::format("{}: {} files have no place for max_angle_deg: what is read back sees as far as its formula goes",
                      camera.name, format));

@@ -17,7 +17,8 @@ class Planar : public Technique {
     const Lens& lens = *view.camera.lens();
     const glm::dvec2 first = (glm::dvec2(view.pixel_offset()) - lens.centre) / lens.focal;
     const glm::dvec2 last = first + glm::dvec2(view.size().width, view.size().height) / lens.focal;
-    const glm::dmat4 flatFromCamera = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, -1.0, -1.0));
+    const glm::dmat4 flatFromLens = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, -1.0, -1.0));
+    const glm::dmat4 flatFromCamera = flatFromLens * glm::dmat4(glm::transpose(lens.cameraFromLens));
     const glm::dmat4 clipFromCamera = clip_from_flat_frame({first.x, last.x}, {first.y, last.y}) * flatFromCamera;
     const glm::dmat4 clipFromWorld = clipFromCamera * glm::inverse(view.worldFromCamera);
 
