@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/image_based.h"
+#include "bench/piecewise.h"
 
 namespace omma::bench {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 constexpr Benchmark list[] = {
     {"image-based", "the cube map's variants and the exact oracle against a planar picture of the same scene and size",
      run_image_based},
+    {"piecewise", "perspective pieces against the cube map and a planar picture; growth with pieces and triangles",
+     run_piecewise},
 };
 
 double percentile(const std::vector<double>& sorted, double share) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/frame.h"
 #include "omma/math/pose.h"
 #include "omma/technique/renderer.h"
 
@@ -29,25 +30,6 @@ constexpr Configuration configurations[] = {
     {"cylinder:fov_deg=360", "raycast"},
 };
 
-/// Pixels that have a ray: a picture outside its image circle costs nothing.
-double megapixels_seen(const Camera& camera) {
-  size_t seen = 0;
-  const ImageSize size = camera.size();
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) seen += camera.unproject({x + 0.5, y + 0.5}).has_value();
-  }
-  return double(seen) * 1e-6;
-}
-
-/// The frame without the copy back to main memory, which a picture for a screen does not need.
-double frame_ms(const RenderStats& stats) {
-  double sum = 0.0;
-  for (const auto& [stage, ms] : stats.stage_ms) {
-    if (stage != "read back") sum += ms;
-  }
-  return sum;
-}
-
 nlohmann::json run_filter(const Options& options, const Scene& scene, Renderer& renderer, Filter filter, int samples) {
   constexpr ImageSize size{1600, 1200};
   const glm::dmat4 pose = look_at_worldFromCamera(scene.default_from, scene.default_to);
@@ -69,8 +51,7 @@ nlohmann::json run_filter(const Options& options, const Scene& scene, Renderer& 
   }
   const std::vector<Timing> timings = measure_in_turn(runs, options.runs);
 
-  const char* filter_name = filter == Filter::anisotropic ? "16x anisotropic" : "trilinear";
-  fmt::print("\n{} x {}, {}, {} sample{} per pixel\n\n", size.width, size.height, filter_name, samples,
+  fmt::print("\n{} x {}, {}, {} sample{} per pixel\n\n", size.width, size.height, filter_name(filter), samples,
              samples == 1 ? "" : "s");
   fmt::print(
       "| camera | technique | ms (10–90%) | × planar | ns per pixel with a ray | × planar | drawn / in scene | stages "
@@ -81,18 +62,14 @@ nlohmann::json run_filter(const Options& options, const Scene& scene, Renderer& 
   for (size_t i = 0; i < timings.size(); ++i) {
     const double per_pixel = timings[i].median / megapixels_seen(cameras[i]);
     if (i == 0) baseline_per_pixel = per_pixel;
-    std::string stages;
-    for (const auto& [stage, ms] : stats[i].stage_ms) {
-      if (stage != "read back") stages += fmt::format("{}{} {:.1f}", stages.empty() ? "" : ", ", stage, ms);
-    }
     const double drawn = double(stats[i].triangles_drawn) / double(stats[i].triangles);
     fmt::print("| {} | {} | {} | {:.2f} | {:.0f} | {:.2f} | {:.2f} | {} |\n", configurations[i].camera,
                configurations[i].technique, to_text(timings[i]), timings[i].median / timings[0].median, per_pixel,
-               per_pixel / baseline_per_pixel, drawn, stages);
+               per_pixel / baseline_per_pixel, drawn, stages_text(stats[i]));
     nlohmann::json row = to_json(timings[i]);
     row["camera"] = configurations[i].camera;
     row["technique"] = configurations[i].technique;
-    row["filter"] = filter_name;
+    row["filter"] = filter_name(filter);
     row["samples"] = samples;
     row["times_planar"] = timings[i].median / timings[0].median;
     row["ns_per_pixel"] = per_pixel;

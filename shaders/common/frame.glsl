@@ -14,7 +14,13 @@ layout(std140, binding = 0) uniform FrameBlock {
   uvec4 counts;     // x: lights
 } frame;
 
-layout(std430, binding = 1) readonly buffer LightBlock { LightRecord lights[]; };
+layout(binding = 15) uniform samplerBuffer light_texels;
+
+LightRecord light_of(uint number) {
+  int at = 4 * int(number);
+  return LightRecord(texelFetch(light_texels, at), texelFetch(light_texels, at + 1), texelFetch(light_texels, at + 2),
+                     texelFetch(light_texels, at + 3));
+}
 
 vec3 sky(vec3 world_direction) {
   float height = world_direction.y;

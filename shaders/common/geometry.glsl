@@ -5,7 +5,16 @@ struct InstanceRecord {
   uvec4 numbers;             // first triangle's id, first triangle's texel, material, object
 };
 
-layout(std430, binding = 0) readonly buffer InstanceBlock { InstanceRecord instances[]; };
+// Tables are read as texels: software rasterizers read those of eight invocations at once, storage blocks one by one.
+layout(binding = 14) uniform usamplerBuffer instance_texels;
+
+InstanceRecord instance_of(uint number) {
+  int at = 4 * int(number);
+  return InstanceRecord(vec4[3](uintBitsToFloat(texelFetch(instance_texels, at)),
+                                uintBitsToFloat(texelFetch(instance_texels, at + 1)),
+                                uintBitsToFloat(texelFetch(instance_texels, at + 2))),
+                        texelFetch(instance_texels, at + 3));
+}
 
 vec3 to_camera(InstanceRecord instance, vec3 point) {
   vec4 p = vec4(point, 1.0);

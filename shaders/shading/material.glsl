@@ -119,7 +119,7 @@ vec4 shade(Surface surface) {
   vec3 radiance = emitted + frame.ambient.rgb * (0.75 + 0.25 * up) * (diffuse + f0);
   for (uint i = 0u; i < frame.counts.x; ++i) {
     vec3 light;
-    vec3 irradiance = incoming_light(lights[i], surface.position, light);
+    vec3 irradiance = incoming_light(light_of(i), surface.position, light);
     float n_l = max(dot(normal, light), 0.0);
     radiance += irradiance * (diffuse * (n_l / 3.14159265) + specular(f0, alpha, normal, view, light, n_l, n_v));
   }

@@ -4,5 +4,5 @@
 void main() {
   uvec2 hit = texelFetch(visible, ivec2(gl_FragCoord.xy), 0).xy;
   if (hit.y == NOTHING) discard;
-  gl_FragDepth = float(instances[hit.y].numbers.z + 1u) / 16777216.0;
+  gl_FragDepth = float(instance_of(hit.y).numbers.z + 1u) / 16777216.0;
 }

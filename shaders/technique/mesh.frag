@@ -12,7 +12,7 @@ flat in uint vertex_piece;
 // Whether the side that is seen is the front, which windings tell; a mirror image turns them round.
 bool is_front() {
 #ifdef MIXED_PIECES
-  return gl_FrontFacing != ((pieces[vertex_piece].flags.x & PIECE_MIRRORED) != 0);
+  return gl_FrontFacing != ((piece_flags(vertex_piece) & PIECE_MIRRORED) != 0);
 #else
   return gl_FrontFacing;
 #endif
@@ -28,7 +28,7 @@ int triangle_number() {
 }
 
 void main() {
-  InstanceRecord instance = instances[vertex.part.x];
+  InstanceRecord instance = instance_of(vertex.part.x);
   Surface surface;
   surface.position = vertex.position;
   surface.normal = normalize(is_front() ? vertex.normal : -vertex.normal);

@@ -7,6 +7,6 @@ layout(location = 2) in vec4 in_color;
 layout(location = 3) in uvec2 in_part;
 
 void read_vertex() {
-  InstanceRecord instance = instances[in_part.x];
+  InstanceRecord instance = instance_of(in_part.x);
   write_vertex(instance, to_camera(instance, in_position), in_attributes, in_color, in_part);
 }

@@ -12,7 +12,7 @@ layout(binding = 9) uniform usamplerBuffer triangles;
 
 void main() {
   uvec2 hit = texelFetch(visible, ivec2(gl_FragCoord.xy), 0).xy;
-  InstanceRecord instance = instances[hit.y];
+  InstanceRecord instance = instance_of(hit.y);
   uvec3 corner = texelFetch(triangles, int(instance.numbers.y + hit.x - instance.numbers.x)).xyz;
   vec3 a = to_camera(instance, texelFetch(positions, int(corner.x)).xyz);
   vec3 b = to_camera(instance, texelFetch(positions, int(corner.y)).xyz);

@@ -5,8 +5,8 @@ layout(local_size_x = 64) in;
 
 struct DrawCommand { uint count, instance_count, first, base_instance; };  // as glDrawArraysIndirect reads it
 
-layout(std430, binding = 5) readonly buffer RangeBlock { uvec2 ranges[]; };  // of slots, the last one excluded
-layout(std430, binding = 7) writeonly buffer CommandBlock { DrawCommand commands[]; };
+layout(std430, binding = 1) readonly buffer RangeBlock { uvec2 ranges[]; };  // of slots, the last one excluded
+layout(std430, binding = 2) writeonly buffer CommandBlock { DrawCommand commands[]; };
 
 uniform uint range_count;
 

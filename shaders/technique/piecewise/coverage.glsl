@@ -3,17 +3,25 @@
 #include "technique/piecewise/pieces.glsl"
 #include "technique/piecewise/scene_triangle.glsl"
 
-struct NodeRecord {
-  vec4 cone;   // axis; sine of the half angle, 2 where that is a right angle or more
-  uvec4 link;  // the node after this one's descendants, its piece or NO_PIECE, the half angle's cosine as bits
+struct Node {
+  vec3 axis;
+  float sine, cosine;  // of the half angle; the sine is 2 where that is a right angle or more
+  int skip;            // the node after this one's descendants
+  uint piece;          // or NO_PIECE
 };
 
 const uint NO_PIECE = 0xffffffffu;
 
 // In the order of a walk that visits a node before its children, which come one after another.
-layout(std430, binding = 3) readonly buffer NodeBlock { NodeRecord nodes[]; };
+layout(binding = 18) uniform usamplerBuffer node_texels;
 
 uniform int node_count;
+
+Node node_of(int number) {
+  vec4 cone = uintBitsToFloat(texelFetch(node_texels, 2 * number));
+  uvec4 link = texelFetch(node_texels, 2 * number + 1);
+  return Node(cone.xyz, cone.w, uintBitsToFloat(link.z), int(link.x), link.y);
+}
 
 // A triangle as a pyramid from the camera's centre, and the cone around it.
 struct Pyramid {
@@ -43,32 +51,30 @@ bool pyramid_of(vec3 a, vec3 b, vec3 c, float cull_sign, out Pyramid pyramid) {
 const float LEEWAY = 1e-5;  // radians; for rounding, on the side of drawing too much
 
 // False when two cones, given by the cosines and sines of their half angles, are apart.
-bool cones_meet(vec3 axis, float cosine, float sine, NodeRecord node) {
-  float node_cosine = uintBitsToFloat(node.link.z);
-  return node.cone.w > 1.0 || cosine <= 0.0 ||
-         dot(axis, node.cone.xyz) > cosine * node_cosine - sine * node.cone.w - LEEWAY;
+bool cones_meet(vec3 axis, float cosine, float sine, Node node) {
+  return node.sine > 1.0 || cosine <= 0.0 || dot(axis, node.axis) > cosine * node.cosine - sine * node.sine - LEEWAY;
 }
 
-bool may_reach(Pyramid pyramid, NodeRecord node) {
-  float beyond = -node.cone.w - LEEWAY;
-  return dot(pyramid.side[0], node.cone.xyz) > beyond && dot(pyramid.side[1], node.cone.xyz) > beyond &&
-         dot(pyramid.side[2], node.cone.xyz) > beyond &&
+bool may_reach(Pyramid pyramid, Node node) {
+  float beyond = -node.sine - LEEWAY;
+  return dot(pyramid.side[0], node.axis) > beyond && dot(pyramid.side[1], node.axis) > beyond &&
+         dot(pyramid.side[2], node.axis) > beyond &&
          cones_meet(pyramid.axis, pyramid.cosine, pyramid.sine, node);
 }
 
 bool reaches(Pyramid pyramid, uint piece) {
-  PieceRecord record = pieces[piece];
   for (int k = 0; k < 4; ++k) {
-    vec3 plane = record.plane[k].xyz;
+    vec3 plane = piece_plane(piece, k);
     if (dot(plane, pyramid.corner[0]) < 0.0 && dot(plane, pyramid.corner[1]) < 0.0 &&
         dot(plane, pyramid.corner[2]) < 0.0) {
       return false;
     }
   }
+  vec3 ray[4] = vec3[4](piece_ray(piece, 0), piece_ray(piece, 1), piece_ray(piece, 2), piece_ray(piece, 3));
   for (int i = 0; i < 3; ++i) {
     vec3 side = pyramid.side[i];
-    if (dot(side, record.ray[0].xyz) < -LEEWAY && dot(side, record.ray[1].xyz) < -LEEWAY &&
-        dot(side, record.ray[2].xyz) < -LEEWAY && dot(side, record.ray[3].xyz) < -LEEWAY) {
+    if (dot(side, ray[0]) < -LEEWAY && dot(side, ray[1]) < -LEEWAY && dot(side, ray[2]) < -LEEWAY &&
+        dot(side, ray[3]) < -LEEWAY) {
       return false;
     }
   }
@@ -78,13 +84,13 @@ bool reaches(Pyramid pyramid, uint piece) {
 // The next piece that the triangle reaches, from `node` on and before `end`; NO_PIECE when there is none.
 uint next_piece(Pyramid pyramid, inout int node, int end) {
   while (node < end) {
-    NodeRecord record = nodes[node];
-    if (!may_reach(pyramid, record)) {
-      node = int(record.link.x);
+    Node next = node_of(node);
+    if (!may_reach(pyramid, next)) {
+      node = next.skip;
       continue;
     }
     ++node;
-    if (record.link.y != NO_PIECE && reaches(pyramid, record.link.y)) return record.link.y;
+    if (next.piece != NO_PIECE && reaches(pyramid, next.piece)) return next.piece;
   }
   return NO_PIECE;
 }
@@ -93,21 +99,19 @@ uint next_piece(Pyramid pyramid, inout int node, int end) {
 void narrow(vec3 axis, float cosine, float sine, out int node, out int end) {
   node = 0;
   end = node_count;
-  for (;;) {
-    // Goes down as long as only one child meets the cone.
-    int found = -1;
-    int child = node + 1;
-    if (node >= end || nodes[node].link.y != NO_PIECE) return;
-    for (; child < end; child = int(nodes[child].link.x)) {
-      if (!cones_meet(axis, cosine, sine, nodes[child])) continue;
-      if (found >= 0) return;
-      found = child;
+  // Goes down as long as only one child meets the cone.
+  while (node < end && node_of(node).piece == NO_PIECE) {
+    int found = -1, found_end = 0;
+    for (int child = node + 1; child < end;) {
+      Node next = node_of(child);
+      if (cones_meet(axis, cosine, sine, next)) {
+        if (found >= 0) return;
+        found = child;
+        found_end = next.skip;
+      }
+      child = next.skip;
     }
-    if (found < 0) {
-      end = node;
-      return;
-    }
-    node = found;
-    end = int(nodes[found].link.x);
+    node = max(found, 0);
+    end = found_end;
   }
 }

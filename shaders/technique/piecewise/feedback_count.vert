@@ -1,12 +1,8 @@
 // First pass: the pieces of each slot.
 #include "technique/piecewise/runs.glsl"
+#include "technique/piecewise/feedback_slots.glsl"
 
-struct LastRecord {
-  uint total, entries;
-  uvec2 run[MAX_RUNS];
-};
-layout(std430, binding = 7) readonly buffer LastSlotBlock { LastRecord last_slots[]; };
-layout(std430, binding = 6) buffer LimitedBlock { uint limited; };  // slots that had to wait for the next round
+layout(std430, binding = 0) buffer LimitedBlock { uint limited; };  // slots that had to wait for the next round
 
 layout(xfb_buffer = 0, xfb_stride = 32) out;
 layout(xfb_offset = 0) flat out uint out_total;
@@ -24,7 +20,7 @@ void main() {
   runs.total = 0u;
   for (int i = 0; i < MAX_RUNS; ++i) runs.run[i] = uvec2(0u);
   if (find_item(slot, item, node, end) && item_pyramid(item, pyramid)) runs = find_runs(pyramid, node, end);
-  uint most = uint(GROWTH) * last_slots[slot].entries;
+  uint most = uint(GROWTH) * last_entries_of(slot);
   out_total = runs.total;
   out_entries = clamp(runs.total, 1u, most);
   if (runs.total > most) atomicAdd(limited, 1u);

@@ -10,8 +10,8 @@ layout(xfb_buffer = 0, xfb_offset = 0) flat out uvec2 out_entry;
 
 void main() {
   uint slot = vertex_entry[0].x;
-  uint step = last_slots[slot].entries;
-  for (uint number = vertex_entry[0].y; number < slots[slot].entries; number += step) {
+  uint step = last_entries_of(slot), entries = entries_of(slot);
+  for (uint number = vertex_entry[0].y; number < entries; number += step) {
     out_entry = uvec2(slot, number);
     EmitVertex();
     EndPrimitive();

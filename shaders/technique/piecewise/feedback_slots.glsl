@@ -2,9 +2,17 @@
 
 struct SlotRecord {
   uint total;    // pieces, gaps between runs included
-  uint entries;  // in this frame's list of replicas: `total`, at least 1, at most GROWTH times as many as before
-  uvec2 run[MAX_RUNS];
+  uint entries;  // in the list of replicas: `total`, at least 1, at most GROWTH times as many as a round before
+  uvec2 run[3];
 };
 
-layout(std430, binding = 6) readonly buffer SlotBlock { SlotRecord slots[]; };
-layout(std430, binding = 7) readonly buffer LastSlotBlock { SlotRecord last_slots[]; };
+layout(binding = 22) uniform usamplerBuffer slot_texels;
+layout(binding = 23) uniform usamplerBuffer last_slot_texels;
+
+SlotRecord slot_of(uint number) {
+  uvec4 first = texelFetch(slot_texels, 2 * int(number)), second = texelFetch(slot_texels, 2 * int(number) + 1);
+  return SlotRecord(first.x, first.y, uvec2[3](first.zw, second.xy, second.zw));
+}
+
+uint entries_of(uint slot) { return texelFetch(slot_texels, 2 * int(slot)).y; }
+uint last_entries_of(uint slot) { return texelFetch(last_slot_texels, 2 * int(slot)).y; }

@@ -1,6 +1,6 @@
 // Prefix sums in levels: 64 values of a level become one of the next, until one is left, the total. All levels lie in
 // one buffer; scan.comp turns the values of each 64 into what comes before them.
-layout(std430, binding = 6) buffer CountBlock { uint counts[]; };
+layout(std430, binding = 0) buffer CountBlock { uint counts[]; };
 
 const int MAX_LEVELS = 7;
 uniform uint level_first[MAX_LEVELS];  // in the buffer

@@ -1,25 +1,39 @@
 // Whose a sample is. Clipping the same edge to two pieces rounds it twice, so no two pieces draw a sample because of
 // how they were clipped: they overlap a little, and each sample is given to one of them, in whole numbers.
-#include "technique/piecewise/pieces.glsl"
 #include "common/polygon_side.glsl"
+
+// Of each piece, in its tile's grid (1/256 px): four corners, clockwise as seen (triangles repeat the last); the ways
+// from each to the next, shortened by common factors; flags.
+layout(binding = 17) uniform isamplerBuffer polygon_texels;
+const int POLYGON_TEXELS = 5;
+const int PIECE_MIRRORED = 1;   // shows the world's mirror image
+const int PIECE_WIDE = 2;       // products of its sides do not fit in 32 bits
+const int PIECE_CONTESTED = 4;  // an earlier piece lies over a part of it
 
 uniform ivec2 sample_places[SAMPLES];  // within a pixel, in 1/256 px
 
-ivec2 corner_of(PieceRecord record, int k) { return (k & 1) == 0 ? record.corners[k >> 1].xy : record.corners[k >> 1].zw; }
-ivec2 side_vector(PieceRecord record, int k) { return (k & 1) == 0 ? record.sides[k >> 1].xy : record.sides[k >> 1].zw; }
+int piece_flags(uint piece) { return texelFetch(polygon_texels, int(piece) * POLYGON_TEXELS + 4).x; }
+
+int samples_beside(ivec2 side, ivec2 offset, bool wide) {
+  int at_pixel = side_of(side, offset, wide) - (owns_border(side) ? 0 : 1);
+  int beside = 0;
+  for (int s = 0; s < SAMPLES; ++s) {
+    ivec2 place = sample_places[s];
+    beside |= at_pixel + side.x * place.y - side.y * place.x >= 0 ? 1 << s : 0;
+  }
+  return beside;
+}
 
 // The samples of a pixel of the tile that are a piece's polygon's, as bits.
 int samples_within(uint piece, ivec2 pixel) {
-  PieceRecord record = pieces[piece];
-  bool wide = (record.flags.x & PIECE_WIDE) != 0;
+  int at = int(piece) * POLYGON_TEXELS;
+  ivec2 place = pixel * 256;
+  bool wide = (piece_flags(piece) & PIECE_WIDE) != 0;
   int within = (1 << SAMPLES) - 1;
-  for (int k = 0; k < 4; ++k) {
-    ivec2 side = side_vector(record, k);
-    int at_pixel = side_of(side, pixel * 256 - corner_of(record, k), wide) - (owns_border(side) ? 0 : 1);
-    for (int s = 0; s < SAMPLES; ++s) {
-      ivec2 place = sample_places[s];
-      if (at_pixel + side.x * place.y - side.y * place.x < 0) within &= ~(1 << s);
-    }
+  for (int pair = 0; pair < 2; ++pair) {
+    ivec4 corners = texelFetch(polygon_texels, at + pair);
+    ivec4 sides = texelFetch(polygon_texels, at + 2 + pair);
+    within &= samples_beside(sides.xy, place - corners.xy, wide) & samples_beside(sides.zw, place - corners.zw, wide);
   }
   return within;
 }
@@ -47,7 +61,7 @@ bool lies_under_another(uint piece, ivec2 pixel, int s) {
 
 int samples_of(uint piece, ivec2 pixel) {
   int samples = samples_within(piece, pixel);
-  if ((pieces[piece].flags.x & PIECE_CONTESTED) == 0) return samples;
+  if ((piece_flags(piece) & PIECE_CONTESTED) == 0) return samples;
   for (int s = 0; s < SAMPLES; ++s) {
     if ((samples & 1 << s) != 0 && lies_under_another(piece, pixel, s)) samples &= ~(1 << s);
   }

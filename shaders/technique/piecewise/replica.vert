@@ -1,9 +1,9 @@
 // Replicated triangles, three vertices each.
 #include "technique/piecewise/pulled_vertex.glsl"
 
-layout(std430, binding = 7) readonly buffer ReplicaBlock { uvec2 replicas[]; };  // item, piece
+layout(binding = 21) uniform usamplerBuffer replica_texels;  // item, piece
 
 void main() {
-  uvec2 replica = replicas[gl_VertexID / 3];
+  uvec2 replica = texelFetch(replica_texels, gl_VertexID / 3).xy;
   pull_vertex(replica.x, replica.y, gl_VertexID % 3);
 }

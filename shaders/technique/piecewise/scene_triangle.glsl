@@ -14,7 +14,12 @@ struct PartRecord {
   float cull_sign;  // 1: faces that turn away are left out; -1: in a mirrored instance; 0: none is
 };
 
-layout(std430, binding = 4) readonly buffer PartBlock { PartRecord parts[]; };
+layout(binding = 19) uniform usamplerBuffer part_texels;
+
+PartRecord part_of(uint number) {
+  uvec4 texel = texelFetch(part_texels, int(number));
+  return PartRecord(texel.x, texel.y, texel.z, uintBitsToFloat(texel.w));
+}
 
 // An item is a triangle of a part: both numbers in one.
 const uint ITEM_BITS = 10u;
@@ -23,9 +28,7 @@ uint item_part(uint item) { return item >> ITEM_BITS; }
 uint item_triangle(uint item) { return item & ((1u << ITEM_BITS) - 1u); }
 
 // The vertices' numbers.
-uvec3 item_corners(uint item, out InstanceRecord instance) {
-  PartRecord part = parts[item_part(item)];
-  instance = instances[part.instance];
+uvec3 item_corners(uint item, PartRecord part, InstanceRecord instance) {
   uint id = part.first_triangle + item_triangle(item);
   return texelFetch(triangles, int(instance.numbers.y + id - instance.numbers.x)).xyz;
 }

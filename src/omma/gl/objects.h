@@ -166,4 +166,30 @@ class Texture : public Object<TextureTraits> {
   }
 };
 
+/// A table that shaders read as texels and that grows with what is written.
+class Texels {
+ public:
+  explicit Texels(GLenum format) : format_(format) {}
+
+  template <typename T>
+  void write(std::span<const T> values) {
+    reserve(values.size_bytes());
+    buffer_.write(values);
+  }
+  /// Contents are lost where it grows: by half as much again, so that a little more each frame is not a new one each.
+  void reserve(size_t bytes) {
+    if (buffer_ && buffer_.bytes() >= bytes) return;
+    buffer_ = Buffer(bytes + bytes / 2);
+    texture_ = Texture::of_buffer(format_, buffer_);
+  }
+  void bind(GLuint unit) const { texture_.bind(unit); }
+  const Buffer& buffer() const { return buffer_; }
+  size_t bytes() const { return buffer_.bytes(); }
+
+ private:
+  GLenum format_;
+  Buffer buffer_;
+  Texture texture_;
+};
+
 }  // namespace omma::gl

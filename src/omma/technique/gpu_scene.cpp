@@ -8,13 +8,13 @@
 namespace omma {
 namespace {
 
-/// std430, as in common/geometry.glsl.
+/// Four texels, as in common/geometry.glsl.
 struct InstanceRecord {
   glm::vec4 cameraFromObject[3];
   glm::uvec4 numbers;
 };
 
-/// std430, as in common/frame.glsl.
+/// Four texels, as in common/frame.glsl.
 struct LightRecord {
   glm::vec4 position, direction, color, cone;
 };
@@ -127,6 +127,8 @@ GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&sce
   attribute_texels_ = gl::Texture::of_buffer(GL_RGBA32UI, attributes_);
   color_texels_ = gl::Texture::of_buffer(GL_RGBA8, colors_);
   triangle_texels_ = gl::Texture::of_buffer(GL_RGB32UI, indices_);
+  instance_texels_ = gl::Texture::of_buffer(GL_RGBA32UI, instances_);
+  light_texels_ = gl::Texture::of_buffer(GL_RGBA32F, lights_);
 
   vertex_array_ = gl::create_vertex_array();
   const GLuint array = vertex_array_.id();
@@ -205,8 +207,8 @@ void GpuScene::set_view(const glm::dmat4& worldFromCamera, const std::optional<g
 
 void GpuScene::bind() const {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, instances_.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, lights_.id());
+  instance_texels_.bind(14);
+  light_texels_.bind(15);
 }
 
 void GpuScene::bind_vertex_textures() const {

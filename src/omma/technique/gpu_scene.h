@@ -38,7 +38,7 @@ class GpuScene {
   void update();
   /// Makes everything relative to a camera's pose. `background`: linear RGB, nothing for a sky.
   void set_view(const glm::dmat4& worldFromCamera, const std::optional<glm::vec3>& background);
-  /// Binds uniform block 0 and storage blocks 0 and 1.
+  /// Binds uniform block 0, and instances and lights as buffer textures (units 14, 15).
   void bind() const;
   /// Binds the vertices as buffer textures for whoever fetches them by number (units 5, 6, 7, 9).
   void bind_vertex_textures() const;
@@ -63,7 +63,7 @@ class GpuScene {
   std::vector<Part> parts_;
   std::vector<uint32_t> first_vertex_, first_index_;  ///< per mesh, in the common buffers
   gl::Buffer positions_, attributes_, colors_, indices_, part_records_, instances_, frame_, lights_;
-  gl::Texture position_texels_, attribute_texels_, color_texels_, triangle_texels_;
+  gl::Texture position_texels_, attribute_texels_, color_texels_, triangle_texels_, instance_texels_, light_texels_;
   gl::VertexArray vertex_array_;
   glm::dmat4 worldFromCamera_{1.0};
   bool has_blending_ = false;

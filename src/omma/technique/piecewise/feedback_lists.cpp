@@ -5,7 +5,7 @@
 namespace omma {
 namespace {
 
-/// As in shaders/technique/piecewise/feedback_slots.glsl.
+/// Two texels, as in shaders/technique/piecewise/feedback_slots.glsl.
 struct SlotRecord {
   uint32_t total = 0, entries = 1;
   glm::uvec2 run[FeedbackLists::max_runs]{};
@@ -45,7 +45,7 @@ void FeedbackLists::start(const SceneClusters& clusters) {
   // Every slot has one entry, even where it reaches no piece: what is not in a list cannot come back.
   const size_t slot_count = size_t(clusters.cluster_count()) * SceneClusters::cluster_triangles;
   const std::vector<SlotRecord> records(slot_count);
-  for (gl::Buffer& buffer : slots_) buffer = gl::Buffer(std::span<const SlotRecord>(records));
+  for (gl::Texels& slots : slots_) slots.write(std::span<const SlotRecord>(records));
   for (const ClusterGroup& group : clusters.groups()) {
     std::vector<glm::uvec2> entries;
     for (uint32_t slot = group.first_cluster * SceneClusters::cluster_triangles;
@@ -67,8 +67,8 @@ void FeedbackLists::update(const GpuPieces& pieces, const SceneClusters& cluster
     tools_.timer.mark("count");
     complete = count_pieces(pieces, clusters);
     tools_.timer.mark("replicate");
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, slots_[size_t(1 - now_)].id());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, slots_[size_t(now_)].id());
+    slots_[size_t(1 - now_)].bind(22);
+    slots_[size_t(now_)].bind(23);
     for (List& list : lists_) replicate(list);
     now_ = 1 - now_;
   }
@@ -86,11 +86,11 @@ bool FeedbackLists::count_pieces(const GpuPieces& pieces, const SceneClusters& c
   clusters.bind_clusters();
   const uint32_t none = 0;
   limited_.write(std::span<const uint32_t>(&none, 1));
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, limited_.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, slots_[size_t(now_)].id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, limited_.id());
+  slots_[size_t(now_)].bind(23);
   glBindVertexArray(tools_.no_vertices.id());
   {
-    const Capture capture(slots_[size_t(1 - now_)]);
+    const Capture capture(slots_[size_t(1 - now_)].buffer());
     glDrawArrays(GL_POINTS, 0, GLsizei(clusters.cluster_count() * SceneClusters::cluster_triangles));
   }
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -126,7 +126,7 @@ void FeedbackLists::replicate(List& list) {
   }
 }
 
-void FeedbackLists::bind() const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, slots_[size_t(now_)].id()); }
+void FeedbackLists::bind() const { slots_[size_t(now_)].bind(22); }
 
 void FeedbackLists::draw(size_t group) const {
   const List& list = lists_[group];

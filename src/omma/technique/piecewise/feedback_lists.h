@@ -24,7 +24,7 @@ class FeedbackLists {
   /// The scene has other triangles, or in another order.
   void forget() { lists_.clear(); }
 
-  /// Storage block 6.
+  /// Texture unit 22.
   void bind() const;
   /// Draws the entries of the clusters' group of that number as points.
   void draw(size_t group) const;
@@ -43,7 +43,7 @@ class FeedbackLists {
   void replicate(List& list);
 
   DrawTools& tools_;
-  std::array<gl::Buffer, 2> slots_;
+  std::array<gl::Texels, 2> slots_{gl::Texels(GL_RGBA32UI), gl::Texels(GL_RGBA32UI)};
   gl::Buffer limited_;
   gl::VertexArray entries_array_;
   std::vector<List> lists_;  ///< of each group of clusters

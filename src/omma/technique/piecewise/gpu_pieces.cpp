@@ -13,18 +13,22 @@ namespace {
 /// Pixels by which pieces are enlarged before triangles are clipped to them: far more than rounding moves an edge.
 constexpr double margin = 0.25;
 
-/// std430, as in shaders/technique/piecewise/pieces.glsl.
+/// Texels, as in shaders/technique/piecewise/pieces.glsl.
 struct PieceRecord {
   glm::vec4 clipFromCamera[3];
   glm::vec4 plane[4];
   glm::vec4 ray[4];
+};
+
+/// Texels, as in shaders/technique/piecewise/owner.glsl.
+struct PolygonRecord {
   glm::ivec4 corners[2];
   glm::ivec4 sides[2];
   glm::ivec4 flags;
 };
 enum : int { mirrored_flag = 1, wide_flag = 2, contested_flag = 4 };
 
-/// std430, as in shaders/technique/piecewise/coverage.glsl.
+/// Two texels, as in shaders/technique/piecewise/coverage.glsl.
 struct NodeRecord {
   glm::vec4 cone;
   glm::uvec4 link;
@@ -65,9 +69,6 @@ PieceRecord make_record(const PieceSet& set, uint32_t number, const Frame& frame
   record.clipFromCamera[0] = glm::vec4((2.0 * (rows[0] - frame.corner.x * rows[2]) / frame.size.x) - rows[2], 0.0);
   record.clipFromCamera[1] = glm::vec4((2.0 * (rows[1] - frame.corner.y * rows[2]) / frame.size.y) - rows[2], 0.0);
   record.clipFromCamera[2] = glm::vec4(rows[2], 0.0);
-
-  std::array<glm::ivec2, 4> corners, sides;
-  glm::i64vec2 low(INT64_MAX), high(INT64_MIN);
   for (int k = 0; k < 4; ++k) {
     const int at = corner_at(piece, k);
     glm::dvec3 line = side_line(piece, at);
@@ -76,26 +77,34 @@ PieceRecord make_record(const PieceSet& set, uint32_t number, const Frame& frame
     record.plane[k] = glm::vec4(planes[size_t(k)], 0.0);
     const glm::dvec3 ray = set.rayFromImage(number) * glm::dvec3(enlarged_corner(piece, at), 1.0);
     record.ray[k] = glm::vec4(glm::normalize(ray), 0.0);
-    const glm::i64vec2 corner = on_piece_grid(piece.corners[size_t(at)] - frame.corner);
-    corners[size_t(k)] = corner;
-    low = glm::min(low, corner);
-    high = glm::max(high, corner);
   }
-  int64_t longest = 0;
+  return record;
+}
+
+PolygonRecord make_polygon(const PieceSet& set, uint32_t number, const Frame& frame) {
+  const Piece& piece = set.pieces()[number];
+  std::array<glm::ivec2, 4> corners, sides;
+  for (int k = 0; k < 4; ++k) {
+    corners[size_t(k)] = on_piece_grid(piece.corners[size_t(corner_at(piece, k))] - frame.corner);
+  }
+  int64_t longest = 0, reach = 0;
   for (int k = 0; k < 4; ++k) {
     const glm::ivec2 side = corners[size_t((k + 1) % 4)] - corners[size_t(k)];
     const int common = std::max(1, std::gcd(side.x, side.y));
     sides[size_t(k)] = side / common;
     longest = std::max<int64_t>({longest, std::abs(sides[size_t(k)].x), std::abs(sides[size_t(k)].y)});
+    // A fragment may be as far from this corner as the other corners are, and a little farther.
+    const glm::ivec2 diagonal = corners[size_t((k + 2) % 4)] - corners[size_t(k)];
+    reach = std::max<int64_t>({reach, std::abs(side.x), std::abs(side.y), std::abs(diagonal.x), std::abs(diagonal.y)});
   }
-  const int64_t reach = std::max(high.x - low.x, high.y - low.y) + 4 * piece_grid;
+  PolygonRecord record{};
   for (int pair = 0; pair < 2; ++pair) {
     record.corners[pair] = glm::ivec4(corners[size_t(2 * pair)], corners[size_t(2 * pair + 1)]);
     record.sides[pair] = glm::ivec4(sides[size_t(2 * pair)], sides[size_t(2 * pair + 1)]);
   }
   // Positive as for the perspective camera, whose picture has y down where its frame has y up and looks along -z.
   record.flags.x = (glm::determinant(piece.imageFromRay) > 0.0 ? 0 : mirrored_flag) |
-                   (longest * reach < (int64_t(1) << 29) ? 0 : wide_flag) |
+                   (longest * (reach + 4 * piece_grid) < (int64_t(1) << 28) ? 0 : wide_flag) |
                    (set.contested(number) ? contested_flag : 0);
   return record;
 }
@@ -137,16 +146,6 @@ void add_node(std::vector<NodeRecord>& nodes, const std::vector<PieceRecord>& pi
     }
   }
   nodes[number].link.x = uint32_t(nodes.size());
-}
-
-template <typename T>
-void store(gl::Buffer& buffer, const std::vector<T>& values) {
-  const std::span<const T> all(values);
-  if (buffer && buffer.bytes() == all.size_bytes()) {
-    buffer.write(all);
-  } else {
-    buffer = gl::Buffer(all);
-  }
 }
 
 /// Of the bound framebuffer's pixels, in parts of the grid.
@@ -192,23 +191,26 @@ void GpuPieces::set(std::shared_ptr<const PieceSet> pieces, const View& view) {
 
   const Frame frame{glm::dvec2(tile_.x0, tile_.y0) + shift_, glm::dvec2(tile_.width(), tile_.height())};
   std::vector<PieceRecord> records;
+  std::vector<PolygonRecord> polygons;
   std::vector<uint32_t> order;
   planes_.assign(keys.size(), {});
   mirrored_.clear();
   overlapping_ = false;
   for (const auto& [key, number] : keys) {
     records.push_back(make_record(*set_, number, frame, planes_[records.size()]));
+    polygons.push_back(make_polygon(*set_, number, frame));
     order.push_back(number);
-    mirrored_.push_back((records.back().flags.x & mirrored_flag) != 0);
-    overlapping_ |= (records.back().flags.x & contested_flag) != 0;
+    mirrored_.push_back((polygons.back().flags.x & mirrored_flag) != 0);
+    overlapping_ |= (polygons.back().flags.x & contested_flag) != 0;
   }
   any_mirrored_ = std::find(mirrored_.begin(), mirrored_.end(), true) != mirrored_.end();
   all_mirrored_ = std::find(mirrored_.begin(), mirrored_.end(), false) == mirrored_.end();
   std::vector<NodeRecord> nodes;
   if (!records.empty()) add_node(nodes, records, 0, records.size());
   node_count_ = int(nodes.size());
-  store(records_, records);
-  store(nodes_, nodes);
+  records_.write(std::span<const PieceRecord>(records));
+  polygons_.write(std::span<const PolygonRecord>(polygons));
+  nodes_.write(std::span<const NodeRecord>(nodes));
   if (overlapping_) fill_bins(order);
 }
 
@@ -223,18 +225,17 @@ void GpuPieces::fill_bins(const std::vector<uint32_t>& order) {
     }
   }
   first.push_back(uint32_t(pieces.size()));
-  bin_first_ = gl::Buffer(std::span<const uint32_t>(first));
-  bin_pieces_ = gl::Buffer(std::span<const uint32_t>(pieces));
-  bin_first_texels_ = gl::Texture::of_buffer(GL_R32UI, bin_first_);
-  bin_pieces_texels_ = gl::Texture::of_buffer(GL_R32UI, bin_pieces_);
+  bin_first_.write(std::span<const uint32_t>(first));
+  bin_pieces_.write(std::span<const uint32_t>(pieces));
 }
 
 void GpuPieces::bind() const {
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, records_.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, nodes_.id());
+  records_.bind(16);
+  polygons_.bind(17);
+  nodes_.bind(18);
   if (!overlapping_) return;
-  bin_first_texels_.bind(10);
-  bin_pieces_texels_.bind(11);
+  bin_first_.bind(10);
+  bin_pieces_.bind(11);
 }
 
 gl::Defines GpuPieces::defines() const {

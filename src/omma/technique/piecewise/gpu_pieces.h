@@ -21,7 +21,7 @@ class GpuPieces {
   /// Takes the pieces that reach into the view's tile, as the view's pass samples it.
   void set(std::shared_ptr<const PieceSet> pieces, const View& view);
 
-  /// Storage blocks 2 and 3, and texture units 10 and 11.
+  /// Texture units 16 to 18, 10 and 11.
   void bind() const;
   /// For shaders/technique/mesh.frag and the vertex stages of technique/piecewise/.
   gl::Defines defines() const;
@@ -36,7 +36,9 @@ class GpuPieces {
   /// False when a box lies wholly beyond a side of the piece. `cameraFromWorld` is rigid.
   bool may_show(size_t piece, const glm::dmat4& cameraFromWorld, const Bounds& world) const;
 
-  size_t bytes() const { return records_.bytes() + nodes_.bytes() + bin_first_.bytes() + bin_pieces_.bytes(); }
+  size_t bytes() const {
+    return records_.bytes() + polygons_.bytes() + nodes_.bytes() + bin_first_.bytes() + bin_pieces_.bytes();
+  }
 
  private:
   void fill_bins(const std::vector<uint32_t>& order);
@@ -50,8 +52,8 @@ class GpuPieces {
   std::vector<bool> mirrored_;
   bool any_mirrored_ = false, all_mirrored_ = false, overlapping_ = false;
   int node_count_ = 0;
-  gl::Buffer records_, nodes_, bin_first_, bin_pieces_;
-  gl::Texture bin_first_texels_, bin_pieces_texels_;
+  gl::Texels records_{GL_RGBA32F}, polygons_{GL_RGBA32I}, nodes_{GL_RGBA32UI};
+  gl::Texels bin_first_{GL_R32UI}, bin_pieces_{GL_R32UI};
 };
 
 }  // namespace omma

@@ -16,7 +16,8 @@ uint32_t divided_up(uint32_t value, uint32_t by) { return (value + by - 1) / by;
 void dispatch(uint32_t groups) {
   if (groups == 0) return;
   glDispatchCompute(std::min(groups, groups_a_row), divided_up(groups, groups_a_row), 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 /// Grows by half as much again as is needed, so that a moving camera does not make a new one every frame.
@@ -33,9 +34,8 @@ void Replicator::replicate_clusters(const GpuPieces& pieces, const SceneClusters
 
 void Replicator::replicate_items(const GpuPieces& pieces, const SceneClusters& clusters,
                                  std::span<const uint32_t> items) {
-  reserve(items_, items.size_bytes());
   items_.write(items);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, items_.id());
+  items_.bind(20);
   replicate(pieces, clusters, divided_up(uint32_t(items.size()), group_size), {{"ITEM_LIST", "1"}}, "item_count",
             uint32_t(items.size()));
 }
@@ -51,7 +51,9 @@ void Replicator::replicate(const GpuPieces& pieces, const SceneClusters& cluster
     slots += level_size;
   }
   reserve(counts_, slots * sizeof(uint32_t));
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, counts_.id());
+  reserve(first_pieces_, level_sizes_.front() * sizeof(uint32_t));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, counts_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, first_pieces_.id());
   tools_.scene.bind();
   clusters.bind();
   pieces.bind();
@@ -76,8 +78,8 @@ void Replicator::replicate(const GpuPieces& pieces, const SceneClusters& cluster
     throw MachineError("{} replicas of triangles are more than one draw holds, {}; ask for fewer pieces",
                        replica_count_, most);
   }
-  reserve(replicas_, replica_count_ * sizeof(glm::uvec2));
-  bind();
+  replicas_.reserve(replica_count_ * sizeof(glm::uvec2));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, replicas_.buffer().id());
   tools_.timer.mark("replicate");
   defines["WRITE"] = "1";
   run(defines);
@@ -104,8 +106,9 @@ void Replicator::prepare_draws(std::span<const glm::uvec2> ranges) {
   ranges_.write(ranges);
   constexpr size_t command_bytes = 4 * sizeof(uint32_t);
   reserve(commands_, ranges.size() * command_bytes);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, ranges_.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, commands_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, counts_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, ranges_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, commands_.id());
   const gl::Program& program = tools_.programs.get({{GL_COMPUTE_SHADER, "technique/piecewise/commands.comp"}}, {});
   program.use();
   set_levels(program);
@@ -113,7 +116,7 @@ void Replicator::prepare_draws(std::span<const glm::uvec2> ranges) {
   dispatch(divided_up(uint32_t(ranges.size()), group_size));
 }
 
-void Replicator::bind() const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, replicas_.id()); }
+void Replicator::bind() const { replicas_.bind(21); }
 
 void Replicator::draw(size_t range) const {
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());

@@ -22,13 +22,15 @@ class Replicator {
 
   /// Prepares a draw for each range of slots, the last one excluded.
   void prepare_draws(std::span<const glm::uvec2> ranges);
-  /// Storage block 7.
+  /// Texture unit 21.
   void bind() const;
   /// Draws the replicas of the range of that number; a program with technique/piecewise/replica.vert is in use.
   void draw(size_t range) const;
 
   uint32_t replica_count() const { return replica_count_; }
-  size_t bytes() const { return counts_.bytes() + replicas_.bytes() + ranges_.bytes() + commands_.bytes(); }
+  size_t bytes() const {
+    return counts_.bytes() + first_pieces_.bytes() + replicas_.bytes() + ranges_.bytes() + commands_.bytes();
+  }
 
  private:
   void replicate(const GpuPieces& pieces, const SceneClusters& clusters, uint32_t groups, gl::Defines defines,
@@ -38,7 +40,8 @@ class Replicator {
 
   DrawTools& tools_;
   std::vector<uint32_t> level_first_, level_sizes_;
-  gl::Buffer counts_, replicas_, ranges_, commands_, items_;
+  gl::Texels replicas_{GL_RG32UI}, items_{GL_R32UI};
+  gl::Buffer counts_, first_pieces_, ranges_, commands_;
   uint32_t replica_count_ = 0;
 };
 

@@ -10,13 +10,13 @@ namespace {
 static_assert(part_triangles % SceneClusters::cluster_triangles == 0);
 static_assert(part_triangles <= 1u << 10, "an item has ten bits for a triangle of a part");
 
-/// std430, as in shaders/technique/piecewise/scene_triangle.glsl.
+/// A texel, as in shaders/technique/piecewise/scene_triangle.glsl.
 struct PartRecord {
   uint32_t instance, first_triangle, count;
   float cull_sign;
 };
 
-/// std430, as in shaders/technique/piecewise/replicate.comp.
+/// Two texels, as in shaders/technique/piecewise/slots.glsl.
 struct ClusterRecord {
   glm::vec4 sphere;
   glm::uvec4 triangles;
@@ -79,15 +79,15 @@ void SceneClusters::update() {
     if (!blended) solid_cluster_count_ = uint32_t(all.size());
   }
   cluster_count_ = uint32_t(all.size());
-  parts_ = gl::Buffer(std::span<const PartRecord>(parts));
-  clusters_ = gl::Buffer(std::span<const ClusterRecord>(all));
+  parts_.write(std::span<const PartRecord>(parts));
+  clusters_.write(std::span<const ClusterRecord>(all));
 }
 
 void SceneClusters::bind() const {
   scene_.bind_vertex_textures();
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, parts_.id());
+  parts_.bind(19);
 }
 
-void SceneClusters::bind_clusters() const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, clusters_.id()); }
+void SceneClusters::bind_clusters() const { clusters_.bind(20); }
 
 }  // namespace omma

@@ -25,9 +25,9 @@ class SceneClusters {
   /// Takes over deformed vertices and mirrored transforms.
   void update();
 
-  /// Storage block 4 and the vertices as buffer textures.
+  /// The vertices and, at unit 19, the parts as buffer textures.
   void bind() const;
-  /// Storage block 5.
+  /// Texture unit 20.
   void bind_clusters() const;
 
   /// Blended ones last.
@@ -41,7 +41,7 @@ class SceneClusters {
   std::vector<std::vector<glm::vec4>> spheres_;  ///< of each mesh's clusters, object frame
   std::vector<ClusterGroup> groups_;
   uint32_t cluster_count_ = 0, solid_cluster_count_ = 0;
-  gl::Buffer parts_, clusters_;
+  gl::Texels parts_{GL_RGBA32UI}, clusters_{GL_RGBA32UI};
 };
 
 }  // namespace omma
