@@ -16,6 +16,7 @@
 #include "omma/camera/field_of_view.h"
 #include "omma/camera/files/camera_file.h"
 #include "omma/camera/fit.h"
+#include "omma/camera/pieces/approximate.h"
 #include "omma/image/npy.h"
 
 namespace omma::tool {
@@ -28,7 +29,7 @@ constexpr double degrees_per_radian = 180.0 / 3.14159265358979323846;
 /// As typed.
 struct Options {
   std::string camera;
-  Text size, rays, model, output, format;
+  Text size, rays, model, output, format, pieces, tolerance, count;
   std::vector<std::string> project, unproject;
   bool json = false;
 };
@@ -45,7 +46,7 @@ Json describe(const Camera& camera) {
     json["centre_px"] = {lens->centre.x, lens->centre.y};
     json["max_angle_deg"] = lens->parameters.max_angle * degrees_per_radian;
   }
-  if (const PieceSet* pieces = camera.pieces()) json["pieces"] = pieces->pieces().size();
+  if (const PieceSet* pieces = camera.pieces()) json["piece_count"] = pieces->pieces().size();
   json["horizontal_fov_deg"] = optional_number(fov.horizontal_deg);
   json["vertical_fov_deg"] = optional_number(fov.vertical_deg);
   json["diagonal_fov_deg"] = optional_number(fov.diagonal_deg);
@@ -95,6 +96,32 @@ Json describe(const Residual& residual) {
           {"p95_px", residual.p95_px}, {"max_px", residual.max_px}, {"max_at", {residual.max_at.x, residual.max_at.y}}};
 }
 
+PieceOptions piece_options(const Options& options) {
+  PieceOptions pieces;
+  if (options.tolerance) pieces.tolerance_px = parse_number("--tolerance", *options.tolerance);
+  if (options.count) {
+    const long count = parse_integer("--count", *options.count);
+    if (count < 1 || count > 1'000'000) throw CommandError("--count {}: 1 to 1000000 is accepted", count);
+    pieces.count = static_cast<int>(count);
+  }
+  return pieces;
+}
+
+/// Writes the pieces that stand for the camera, and says how many they are and how far they are off.
+Json write_pieces(const Camera& camera, const Options& options) {
+  Approximation made = approximate(camera, piece_options(options));
+  const size_t count = made.pieces.pieces().size();
+  const NamedCamera named{"pieces", Camera(std::move(made.pieces))};
+  write_camera_file(*options.pieces, {&named, 1}, "pieces");
+  return {{"count", count},
+          {"layout", made.layout},
+          {"points", made.error.points},
+          {"mean_px", made.error.mean_px},
+          {"p95_px", made.error.p95_px},
+          {"max_px", made.error.max_px},
+          {"max_at", {made.error.worst.x, made.error.worst.y}}};
+}
+
 std::string value_text(const Json& value) {
   if (value.is_null()) return "none";
   if (value.is_string()) return value.get<std::string>();
@@ -107,8 +134,8 @@ std::string value_text(const Json& value) {
 
 void print_text(const Json& json) {
   for (const auto& [key, value] : json.items()) {
-    if (key == "residual") {
-      for (const auto& [name, number] : value.items()) fmt::print("residual {:<11}{}\n", name, value_text(number));
+    if (value.is_object()) {
+      for (const auto& [name, number] : value.items()) fmt::print("{:<20}{}\n", key + ' ' + name, value_text(number));
       continue;
     }
     if (key != "project" && key != "unproject") {
@@ -144,6 +171,16 @@ void run(const Options& options) {
     if (!options.rays->ends_with(".npy")) throw CommandError("--rays {}: a name that ends in .npy", *options.rays);
     require_writable(*options.rays);
   }
+  if (options.pieces) {
+    if (!options.pieces->ends_with(".json"))
+      throw CommandError("--pieces {}: a name that ends in .json", *options.pieces);
+    require_writable(*options.pieces);
+  } else if (options.tolerance || options.count) {
+    throw CommandError("{} is for --pieces, which is missing", options.tolerance ? "--tolerance" : "--count");
+  }
+  if (options.tolerance && options.count) {
+    throw CommandError("--tolerance and --count both say how many pieces there are; give one of them");
+  }
   if (options.format && !options.output) throw CommandError("--format is for -o, which is missing");
   if (options.output) {
     require_camera_format(*options.output, options.format.value_or(""));
@@ -163,6 +200,7 @@ void run(const Options& options) {
   if (!options.project.empty()) json["project"] = projections(camera, options);
   if (!options.unproject.empty()) json["unproject"] = unprojections(camera, options);
   if (options.rays) write_rays(*options.rays, camera);
+  if (options.pieces) json["pieces"] = write_pieces(camera, options);
   if (options.output) {
     const auto file = camera_file_text(options.camera);
     const NamedCamera named{file && file->name ? *file->name : "camera", camera};
@@ -182,8 +220,8 @@ void add_camera(CLI::App& tool) {
   auto options = std::make_shared<Options>();
   command
       ->add_option("camera", options->camera,
-                   "A lens with its parameters (see 'omma cameras'), a .npy ray map, or a calibration file, FILE or "
-                   "FILE#CAMERA")
+                   "A lens with its parameters (see 'omma cameras'), a .npy ray map, a calibration file, FILE or "
+                   "FILE#CAMERA, or a .json file of pieces")
       ->type_name("CAMERA")
       ->required();
   command->add_option("--size", options->size, "Pixels, default 1600x1200 or the camera's own")->type_name("WxH");
@@ -201,6 +239,18 @@ void add_camera(CLI::App& tool) {
   command->add_option("--rays", options->rays, "Write the direction of every pixel, H x W x 3 float32: a ray map")
       ->type_name("FILE.npy");
   command
+      ->add_option("--pieces", options->pieces,
+                   "Write the perspective pieces that stand for the camera, which are a camera themselves, and say how "
+                   "far they are off")
+      ->type_name("FILE.json");
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "As few pieces as show everything this close to where the camera does, pixels, 0.01 to 100, default "
+                   "0.25")
+      ->type_name("PX");
+  command->add_option("--count", options->count, "About so many pieces of equal size instead, whatever the error")
+      ->type_name("N");
+  command
       ->add_option("--model", options->model,
                    "Fit this model to the camera, with all of its parameters or those named, and say how far its "
                    "pixels are off")
@@ -217,6 +267,7 @@ void add_camera(CLI::App& tool) {
       "  omma camera equidistant:fov_deg=180 --size 1024x1024\n"
       "  omma camera equisolid:fov_deg=220 --project 1,0,-1 --project -1,0,0.2\n"
       "  omma camera cylinder:fov_deg=360 --unproject 0,600 --rays rays.npy --json\n"
+      "  omma camera equirectangular --pieces pieces.json --tolerance 0.1\n"
       "  omma camera camchain.yaml#cam1 --model double_sphere -o rig.yaml --format kalibr");
   command->callback([options] { run(*options); });
 }

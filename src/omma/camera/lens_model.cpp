@@ -84,6 +84,17 @@ const char* fit_name(Fit fit) {
 
 std::span<const LensModel> lens_models() { return models; }
 
+std::vector<PlanePolygon> plane_squares(int columns, int rows) {
+  std::vector<PlanePolygon> squares;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const glm::dvec2 corner(2 * column - columns, 2 * row - rows);
+      squares.push_back({corner, corner + glm::dvec2(2, 0), corner + glm::dvec2(2, 2), corner + glm::dvec2(0, 2)});
+    }
+  }
+  return squares;
+}
+
 LensParameters lens_parameters(const LensInfo& info, std::span<const double> values) {
   LensParameters parameters;
   for (size_t i = 0; i < info.parameters.size(); ++i) {

@@ -46,6 +46,12 @@ struct PlaneRectangle {
   glm::dvec2 min, max;
 };
 
+/// A convex polygon of a lens's plane, its corners clockwise as seen (y is down).
+using PlanePolygon = std::vector<glm::dvec2>;
+
+/// Squares two units wide around the plane's origin, in rows from the top left.
+std::vector<PlanePolygon> plane_squares(int columns, int rows);
+
 /// What a lens says of itself; everything printed about lenses comes from here.
 struct LensInfo {
   const char* name;          ///< as on the command line
@@ -70,6 +76,8 @@ struct LensInfo {
   /// The part of the plane that fills the image whatever the image's shape; nothing where a field of view or a focal
   /// length says what the image shows.
   std::optional<PlaneRectangle> (*frame)(const LensParameters&) = nullptr;
+  /// Where the lens has folds or jumps: the parts of the plane within which it has none. Null: it is smooth.
+  std::vector<PlanePolygon> (*parts)(const LensParameters&) = nullptr;
   /// What is wrong with parameters that are each within their range, with what is accepted; null when nothing is.
   const char* (*contradiction)(const LensParameters&) = nullptr;
 };

@@ -67,16 +67,20 @@ void add_grid_triangles(WarpMesh& mesh, int columns, int rows, bool closed) {
 WarpMesh texture_mesh(const ImageSize& texels,
                       const std::function<WarpNode(const glm::dvec2&, const glm::ivec2&, const glm::dvec2&)>& node) {
   const glm::dvec2 size(texels.width, texels.height);
+  const int columns = std::max(2, texels.width), rows = std::max(2, texels.height);
+  const auto place_of = [](int number, int nodes, int count) {
+    return number == 0 ? 0.0 : number == nodes - 1 ? 1.0 : (number + 0.5) / count;
+  };
   WarpMesh mesh;
-  for (int row = -1; row <= texels.height; ++row) {
-    for (int column = -1; column <= texels.width; ++column) {
-      const glm::ivec2 texel(std::clamp(column, 0, texels.width - 1), std::clamp(row, 0, texels.height - 1));
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const glm::ivec2 texel(std::min(column, texels.width - 1), std::min(row, texels.height - 1));
       const glm::dvec2 centre = (glm::dvec2(texel) + 0.5) / size;
-      const glm::dvec2 place = glm::clamp((glm::dvec2(column, row) + 0.5) / size, 0.0, 1.0);
+      const glm::dvec2 place(place_of(column, columns, texels.width), place_of(row, rows, texels.height));
       mesh.nodes.push_back(node(place, texel, centre));
     }
   }
-  add_grid_triangles(mesh, texels.width + 2, texels.height + 2, false);
+  add_grid_triangles(mesh, columns, rows, false);
   return mesh;
 }
 
@@ -130,6 +134,18 @@ std::vector<glm::dvec2> warp_sources(const WarpMesh& mesh, const ImageSize& size
 
 Camera warped_camera(const WarpMesh& mesh, const Camera& base, const ImageSize& size, const std::string& file,
                      const std::string& source) {
+  if (auto pieces = warped_pieces(mesh, base, size, source)) {
+    const std::vector<Piece>& all = pieces->pieces();
+    size_t under = 0;
+    for (uint32_t i = 0; i < all.size(); ++i) under += pieces->contested(i);
+    if (under > 0) {
+      warn(
+          fmt::format("{}: folded: {} of {} triangles lie under others, of which the first that is not turned over is "
+                      "seen",
+                      file, under, all.size()));
+    }
+    return Camera(std::move(*pieces));
+  }
   size_t overlapping = 0;
   const std::vector<glm::dvec2> sources = warp_sources(mesh, size, file, overlapping);
   if (overlapping > 0) {

@@ -31,8 +31,8 @@ struct WarpMesh {
 /// (section 3.2) split their camera textures. `closed`: the last column is joined to the first.
 void add_grid_triangles(WarpMesh& mesh, int columns, int rows, bool closed);
 
-/// A grid of nodes at the centres of `texels` and, so that it covers the image, on its edges, where the nearest texel
-/// counts. `node` makes one from its place in the image and the texel, whose own centre is the third argument.
+/// A grid of nodes at the centres of `texels`; the outermost lie on the image's edges, so that it covers the image.
+/// `node` makes one from its place in the image and the texel, whose own centre is the third argument.
 WarpMesh texture_mesh(
     const ImageSize& texels,
     const std::function<WarpNode(const glm::dvec2& place, const glm::ivec2& texel, const glm::dvec2& centre)>& node);
@@ -44,9 +44,18 @@ WarpMesh texture_mesh(
 std::vector<glm::dvec2> warp_sources(const WarpMesh& mesh, const ImageSize& size, const std::string& what,
                                      size_t& overlapping);
 
-/// The camera that sees in each pixel what `base` sees at the point that the mesh says.
+/// The camera that sees in each pixel what `base` sees at the point that the mesh says: in the pieces form where
+/// warped_pieces makes one, else a ray map. Throws InputError as warp_sources does, CommandError when no pixel has a
+/// ray.
 Camera warped_camera(const WarpMesh& mesh, const Camera& base, const ImageSize& size, const std::string& file,
                      const std::string& source);
+
+/// The same as pieces, one for each triangle that has an area and meets the image; those that are turned over come
+/// last. Nothing where pieces would not show the same: the base is not perspective or does not fill its image, the mesh
+/// shows points beyond the base's image, or has corners too far away for pieces; nor where triangles are smaller than
+/// pixels.
+std::optional<PieceSet> warped_pieces(const WarpMesh& mesh, const Camera& base, const ImageSize& size,
+                                      const std::string& source);
 
 /// The camera of `base=` with every value that is none of `own_keys`.
 Camera base_camera(const DeformationText& text, std::span<const char* const> own_keys,

@@ -23,6 +23,11 @@ inline constexpr LensInfo barrel_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-2.5, -1.0}, {2.5, 1.0}};
     },
+    .parts = [](const LensParameters&) -> std::vector<PlanePolygon> {
+      return {{{-2.5, -1.0}, {1.5, -1.0}, {1.5, 1.0}, {-2.5, 1.0}},
+              {{1.5, -1.0}, {2.5, -1.0}, {2.5, 0.0}, {1.5, 0.0}},
+              {{1.5, 0.0}, {2.5, 0.0}, {2.5, 1.0}, {1.5, 1.0}}};
+    },
 };
 #endif
 

@@ -17,6 +17,7 @@ inline constexpr LensInfo cube_1x6_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-1.0, -6.0}, {1.0, 6.0}};
     },
+    .parts = [](const LensParameters&) { return plane_squares(1, 6); },
 };
 #else
 #include "models/cube.h"

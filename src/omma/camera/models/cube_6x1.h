@@ -17,6 +17,7 @@ inline constexpr LensInfo cube_6x1_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-6.0, -1.0}, {6.0, 1.0}};
     },
+    .parts = [](const LensParameters&) { return plane_squares(6, 1); },
 };
 #else
 #include "models/cube.h"

@@ -22,6 +22,7 @@ inline constexpr LensInfo dual_fisheye_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-2.0, -1.0}, {2.0, 1.0}};
     },
+    .parts = [](const LensParameters&) { return plane_squares(2, 1); },
 };
 #endif
 

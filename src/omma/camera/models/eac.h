@@ -19,6 +19,7 @@ inline constexpr LensInfo eac_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-3.0, -2.0}, {3.0, 2.0}};
     },
+    .parts = [](const LensParameters&) { return plane_squares(3, 2); },
 };
 #else
 #include "models/cube.h"

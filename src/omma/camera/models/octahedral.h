@@ -20,6 +20,12 @@ inline constexpr LensInfo octahedral_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-1.0, -1.0}, {1.0, 1.0}};
     },
+    .parts = [](const LensParameters&) -> std::vector<PlanePolygon> {
+      return {{{0.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}},  {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}},
+              {{0.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}},  {{0.0, 0.0}, {-1.0, 0.0}, {0.0, -1.0}},
+              {{1.0, -1.0}, {1.0, 0.0}, {0.0, -1.0}}, {{1.0, 1.0}, {0.0, 1.0}, {1.0, 0.0}},
+              {{-1.0, 1.0}, {-1.0, 0.0}, {0.0, 1.0}}, {{-1.0, -1.0}, {0.0, -1.0}, {-1.0, 0.0}}};
+    },
 };
 #endif
 

@@ -18,6 +18,15 @@ inline constexpr LensInfo pyramid_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-2.0, -1.0}, {2.0, 1.0}};
     },
+    .parts = [](const LensParameters&) -> std::vector<PlanePolygon> {
+      // Front, back, and the sides between the back and the border.
+      return {{{-2.0, -1.0}, {0.0, -1.0}, {0.0, 1.0}, {-2.0, 1.0}},
+              {{0.75, -0.25}, {1.25, -0.25}, {1.25, 0.25}, {0.75, 0.25}},
+              {{0.0, -1.0}, {0.75, -0.25}, {0.75, 0.25}, {0.0, 1.0}},
+              {{0.0, -1.0}, {2.0, -1.0}, {1.25, -0.25}, {0.75, -0.25}},
+              {{2.0, -1.0}, {2.0, 1.0}, {1.25, 0.25}, {1.25, -0.25}},
+              {{2.0, 1.0}, {0.0, 1.0}, {0.75, 0.25}, {1.25, 0.25}}};
+    },
 };
 #else
 #include "models/cube.h"

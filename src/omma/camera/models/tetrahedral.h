@@ -18,6 +18,12 @@ inline constexpr LensInfo tetrahedral_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-1.0, -1.0}, {1.0, 1.0}};
     },
+    .parts = [](const LensParameters&) -> std::vector<PlanePolygon> {
+      return {{{-1.0, -1.0}, {0.0, -1.0}, {0.0, 1.0}},
+              {{-1.0, -1.0}, {0.0, 1.0}, {-1.0, 1.0}},
+              {{0.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}},
+              {{0.0, -1.0}, {1.0, 1.0}, {0.0, 1.0}}};
+    },
 };
 #endif
 

@@ -38,15 +38,6 @@ std::string fault_of(const Piece& piece) {
   return {};
 }
 
-// The inverse of a piece's matrix; nothing where rows that nearly lie in a plane leave it no more than six digits.
-std::optional<glm::dmat3> inverse_of(const glm::dmat3& matrix) {
-  const glm::dmat3 rows = glm::transpose(matrix);
-  const double size = glm::length(rows[0]) * glm::length(rows[1]) * glm::length(rows[2]);
-  // Written so that NaN fails; beyond these sizes products overflow or vanish.
-  if (!(size > 1e-100 && size < 1e100) || !(std::abs(glm::determinant(matrix)) > 1e-10 * size)) return {};
-  return glm::inverse(matrix);
-}
-
 // Pixels that a point lies outside of the polygon at most, 0 within.
 double outside_by(const Piece& piece, const glm::dvec2& point) {
   double most = 0.0;
@@ -92,9 +83,10 @@ PieceSet::PieceSet(ImageSize size, std::vector<Piece> pieces, std::string source
   for (size_t i = 0; i < pieces_.size(); ++i) {
     const std::string fault = fault_of(pieces_[i]);
     if (!fault.empty()) throw CommandError("{}pieces[{}] {}", beginning, i, fault);
-    const std::optional<glm::dmat3> inverse = inverse_of(pieces_[i].imageFromRay);
-    if (!inverse) throw CommandError("{}pieces[{}].imageFromRay is singular; it must have an inverse", beginning, i);
-    rayFromImage_.push_back(*inverse);
+    if (!has_inverse(pieces_[i].imageFromRay)) {
+      throw CommandError("{}pieces[{}].imageFromRay is singular; it must have an inverse", beginning, i);
+    }
+    rayFromImage_.push_back(glm::inverse(pieces_[i].imageFromRay));
   }
   fill_bins(beginning);
   find_contested();

@@ -3,12 +3,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 
 #include "omma/camera/pieces/piece_set.h"
 
 namespace omma {
+
+/// False where rows that nearly lie in a plane leave the inverse no more than six digits.
+inline bool has_inverse(const glm::dmat3& matrix) {
+  const glm::dmat3 rows = glm::transpose(matrix);
+  const double size = glm::length(rows[0]) * glm::length(rows[1]) * glm::length(rows[2]);
+  // Written so that NaN fails; beyond these sizes products overflow or vanish.
+  return size > 1e-100 && size < 1e100 && std::abs(glm::determinant(matrix)) > 1e-10 * size;
+}
 
 /// A piece's corners in parts of a pixel.
 struct PolygonOnGrid {
