@@ -1,5 +1,5 @@
 #!/bin/sh
-# Renders the pictures of README.md into docs/images/: docs/gallery.sh
+# Renders the pictures of README.md and docs/effects.md into docs/images/: docs/gallery.sh
 # The real scene lies in $OMMA_SHARED_DATA, or in ../shared/data beside the checkout.
 set -eu
 cd "$(dirname "$0")/.."
@@ -30,6 +30,21 @@ picture opencv_fisheye \
   opencv_fisheye:f=190.97,cx=255.4,cy=257.4,width=512,height=512,k1=0.0035,k2=0.0007,k3=-0.0021,k4=0.0002
 picture cylinder cylinder:fov_deg=360 --size 960x360
 picture equirectangular equirectangular:fov_deg=360 --size 960x480
+
+# Effects, for docs/effects.md: effect NAME SCENE CAMERA [OPTIONS...]
+effect() {
+  name=$1
+  scene=$2
+  camera=$3
+  shift 3
+  ./dev render "$scene" --camera "$camera" --size 480x320 --samples 16 --effect "$name" "$@" \
+    -o "docs/images/effect_${name%%:*}.png"
+}
+effect wireframe city panini:fov_deg=150 --background 1,1,1
+effect hatching city stereographic:fov_deg=150,fit=width --background 1,1,1
+effect contours:interval_m=40,color=a04020 terrain panini:fov_deg=140
+effect checker:size_m=2 city equidistant:fov_deg=180,fit=diagonal
+effect brick:length_m=1,height_m=0.4,mortar_m=0.06 city cylinder:fov_deg=200
 
 # A lens's rays as an array take the place of a measured camera's.
 ./dev camera stereographic:fov_deg=220,fit=diagonal --size 480x480 --rays build/gallery_rays.npy

@@ -17,6 +17,7 @@ void add_camera(CLI::App& tool);
 void add_cameras(CLI::App& tool);
 void add_scenes(CLI::App& tool);
 void add_techniques(CLI::App& tool);
+void add_effects(CLI::App& tool);
 void add_doctor(CLI::App& tool);
 void add_bench(CLI::App& tool);
 

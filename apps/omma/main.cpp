@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
   omma::tool::add_cameras(tool);
   omma::tool::add_scenes(tool);
   omma::tool::add_techniques(tool);
+  omma::tool::add_effects(tool);
   omma::tool::add_doctor(tool);
   omma::tool::add_bench(tool);
   return run(tool, argc, argv);

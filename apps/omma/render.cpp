@@ -31,7 +31,7 @@ struct Options {
   std::string scene, camera, technique = "auto";
   Text size, samples, filter, background, face_size, tile, tolerance, pieces, stats;
   ViewOptions view;
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs, effects, show;
   bool overwrite = false;
 };
 
@@ -65,6 +65,8 @@ RenderOptions render_options_of(const Options& options) {
   if (options.samples) result.samples = count_of("--samples", *options.samples, 1, most_samples);
   if (options.filter) result.filter = filter_of(*options.filter);
   if (options.background) result.background = background_of(*options.background);
+  for (const std::string& text : options.effects) result.effects.push_back(make_effect(text));
+  for (const std::string& name : options.show) result.show.insert(show_from_name(name));
   if (options.face_size) result.face_size = count_of("--face-size", *options.face_size, 1, max_image_side);
   if (options.tolerance) result.pieces.tolerance_px = number_of("--tolerance", *options.tolerance, 0.01, 100.0);
   if (options.pieces) result.pieces.count = count_of("--pieces", *options.pieces, 1, 1000000);
@@ -91,6 +93,10 @@ class Job {
       if (std::find(channels_.begin(), channels_.end(), output.channel) == channels_.end()) {
         channels_.push_back(output.channel);
       }
+    }
+    const bool has_color = std::find(channels_.begin(), channels_.end(), Channel::color) != channels_.end();
+    if (!effects_of(render_options_).empty() && !has_color) {
+      throw CommandError("--effect and --show change the colour alone, and no -o asks for it");
     }
   }
 
@@ -242,6 +248,19 @@ std::string channel_help() {
   return text;
 }
 
+std::string effect_help() {
+  std::string names;
+  for (const EffectInfo& effect : effects()) names += fmt::format("{}{}", names.empty() ? "" : ", ", effect.name);
+  return fmt::format("On surfaces: {}; may be given up to {} times, each over the last (see 'omma effects')", names,
+                     max_effects);
+}
+
+std::string show_help() {
+  std::string text = "Over the picture, how it is made:";
+  for (const ShowInfo& info : shows()) text += fmt::format(" {} ({})", info.name, info.description);
+  return text;
+}
+
 }  // namespace
 
 void add_render(CLI::App& tool) {
@@ -268,6 +287,15 @@ void add_render(CLI::App& tool) {
   add(picture, "--samples", "N", options->samples, "Colour samples a pixel, 1 to 1024, default 4");
   add(picture, "--filter", "F", options->filter, "Textures: trilinear or anisotropic (default)");
   add(picture, "--background", "sky|R,G,B", options->background, "Where nothing is: a sky (default) or linear RGB");
+  command->add_option("--effect", options->effects, effect_help())
+      ->type_name("EFFECT[:KEY=VALUE,…]")
+      ->allow_extra_args(false)
+      ->group(picture);
+  command->add_option("--show", options->show, show_help())
+      ->type_name("WHAT[,WHAT]")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(picture);
   add(picture, "--face-size", "N", options->face_size,
       "image-based: texels along a cube face, default the camera's density at its centre");
   add(picture, "--tolerance", "PX", options->tolerance,
@@ -293,6 +321,7 @@ void add_render(CLI::App& tool) {
       channel_help() +
       "Examples:\n"
       "  omma render city --camera equidistant:fov_deg=180 --size 1024x1024 -o dome.png\n"
+      "  omma render city --camera panini:fov_deg=150 --effect brick --effect contours:interval_m=3 -o bricks.png\n"
       "  omma render city --camera cylinder:fov_deg=360 --from -3,20,2 --to 0,5,0 -o c.png -o c.exr:distance\n"
       "  omma render robot.glb --camera equirectangular --frames 120 --fps 24 -o 'walk_%04d.jpg'\n"
       "A sequence that was cut off goes on with its first missing frame.");

@@ -3,6 +3,9 @@
 #include "common/frame.glsl"
 #include "shading/surface.glsl"
 #include "shading/texture.glsl"
+#ifdef EFFECTS
+#include "shading/effects.glsl"
+#endif
 
 layout(std140, binding = 1) uniform MaterialBlock {
   vec4 base_color;
@@ -91,9 +94,8 @@ float surface_coverage(vec4 base) {
 #endif
 }
 
-// Linear radiance towards the camera, and coverage.
-vec4 shade(Surface surface) {
-  vec4 base = surface_color(surface);
+// Linear radiance towards the camera of a surface of this colour, and coverage.
+vec4 lit(Surface surface, vec4 base) {
 #ifdef UNLIT
   return vec4(base.rgb, surface_coverage(base));
 #else
@@ -124,5 +126,14 @@ vec4 shade(Surface surface) {
     radiance += irradiance * (diffuse * (n_l / 3.14159265) + specular(f0, alpha, normal, view, light, n_l, n_v));
   }
   return vec4(radiance, surface_coverage(base));
+#endif
+}
+
+// What the camera sees of a surface: linear radiance and coverage.
+vec4 shade(Surface surface) {
+#ifdef EFFECTS
+  return draw_over(surface, lit(surface, paint(surface, surface_color(surface))));
+#else
+  return lit(surface, surface_color(surface));
 #endif
 }

@@ -1,6 +1,9 @@
 // A rasterized fragment as a Surface.
 #include "technique/mesh_vertex.glsl"
 #include "shading/output.glsl"
+#ifdef EFFECTS
+#include "technique/corners.glsl"
+#endif
 
 in MESH_VERTEX vertex;
 
@@ -18,14 +21,37 @@ bool is_front() {
 #endif
 }
 
-// Triangles that are fetched by number know their own; others are counted by the draw.
+#ifdef SORTED
+layout(binding = 20) uniform usamplerBuffer sorted_triangles;  // ids in the order in which they are drawn
+uniform int first_sorted;
+#endif
+
+// Triangles that are fetched by number know their own, sorted ones have a list; others are counted by the draw.
 int triangle_number() {
-#ifdef PULLED
+#if defined PULLED
   return int(vertex.part.y);
+#elif defined SORTED
+  return int(texelFetch(sorted_triangles, first_sorted + gl_PrimitiveID).x);
 #else
   return int(vertex.part.y) + gl_PrimitiveID;
 #endif
 }
+
+#ifdef EFFECTS
+// Where the surface lies in its triangle. A point of its plane is linear in the coordinates, so they change as it does.
+void set_barycentric(inout Surface surface, InstanceRecord instance) {
+  uvec3 corner = corners_of(instance, uint(surface.triangle));
+  vec3 a = corner_position(instance, corner.x);
+  vec3 ab = corner_position(instance, corner.y) - a, ac = corner_position(instance, corner.z) - a;
+  vec3 normal = cross(ab, ac);
+  mat2x3 bcFromPlane = mat2x3(cross(ac, normal), cross(normal, ab)) / dot(normal, normal);
+  vec2 bc = (surface.position - a) * bcFromPlane;
+  vec2 bc_dx = surface.position_dx * bcFromPlane, bc_dy = surface.position_dy * bcFromPlane;
+  surface.barycentric = vec3(1.0 - bc.x - bc.y, bc);
+  surface.barycentric_dx = vec3(-bc_dx.x - bc_dx.y, bc_dx);
+  surface.barycentric_dy = vec3(-bc_dy.x - bc_dy.y, bc_dy);
+}
+#endif
 
 void main() {
   InstanceRecord instance = instance_of(vertex.part.x);
@@ -40,6 +66,11 @@ void main() {
   surface.triangle = triangle_number();
   surface.object = int(instance.numbers.w);
   surface.material = int(instance.numbers.z);
+#ifdef EFFECTS
+  surface.position_dx = dFdx(vertex.position);
+  surface.position_dy = dFdy(vertex.position);
+  set_barycentric(surface, instance);
+#endif
 #ifdef PIECES
   int samples = samples_of(vertex_piece, ivec2(gl_FragCoord.xy));
   if (samples == 0 || surface_is_hole(surface)) discard;

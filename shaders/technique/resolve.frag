@@ -4,19 +4,18 @@
 #include "technique/visible.glsl"
 #include "common/camera.glsl"
 #include "shading/output.glsl"
+#include "technique/corners.glsl"
 
-layout(binding = 5) uniform samplerBuffer positions;
 layout(binding = 6) uniform usamplerBuffer attributes;
 layout(binding = 7) uniform samplerBuffer colors;
-layout(binding = 9) uniform usamplerBuffer triangles;
 
 void main() {
   uvec2 hit = texelFetch(visible, ivec2(gl_FragCoord.xy), 0).xy;
   InstanceRecord instance = instance_of(hit.y);
-  uvec3 corner = texelFetch(triangles, int(instance.numbers.y + hit.x - instance.numbers.x)).xyz;
-  vec3 a = to_camera(instance, texelFetch(positions, int(corner.x)).xyz);
-  vec3 b = to_camera(instance, texelFetch(positions, int(corner.y)).xyz);
-  vec3 c = to_camera(instance, texelFetch(positions, int(corner.z)).xyz);
+  uvec3 corner = corners_of(instance, hit.x);
+  vec3 a = corner_position(instance, corner.x);
+  vec3 b = corner_position(instance, corner.y);
+  vec3 c = corner_position(instance, corner.z);
   // With n1 and n2 written by differences of vertices, and the sum as the triangle's normal, rounding grows with the
   // triangle's distance over its size; with b x c it grows with the square of that, and small triangles fall apart.
   vec3 ab = b - a, ac = c - a;
@@ -56,5 +55,12 @@ void main() {
   surface.triangle = int(hit.x);
   surface.object = int(instance.numbers.w);
   surface.material = int(instance.numbers.z);
+#ifdef EFFECTS
+  surface.position_dx = ab * bc_dx.x + ac * bc_dx.y;
+  surface.position_dy = ab * bc_dy.x + ac * bc_dy.y;
+  surface.barycentric = weight;
+  surface.barycentric_dx = weight_dx;
+  surface.barycentric_dy = weight_dy;
+#endif
   write_outputs(surface);
 }

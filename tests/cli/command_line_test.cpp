@@ -6,8 +6,8 @@ namespace {
 
 using CommandLine = ToolTest;
 
-const std::vector<std::string> commands{"render", "compare", "camera",     "cameras",
-                                        "scenes", "doctor",  "techniques", "bench"};
+const std::vector<std::string> commands{"render", "compare",    "camera",  "cameras", "scenes",
+                                        "doctor", "techniques", "effects", "bench"};
 
 /// A command that would render, and what follows.
 std::vector<std::string> render(const std::vector<std::string>& more) {
@@ -39,6 +39,8 @@ TEST_F(CommandLine, ListsSayWhatThereIs) {
   EXPECT_NE(run({"cameras"}).out.find("equidistant"), std::string::npos);
   EXPECT_NE(run({"cameras", "--markdown"}).out.find("| "), std::string::npos);
   EXPECT_NE(run({"scenes"}).out.find("city"), std::string::npos);
+  EXPECT_NE(run({"effects"}).out.find("width_px"), std::string::npos);
+  EXPECT_NE(run({"effects", "--markdown"}).out.find("| `width_px` |"), std::string::npos);
   EXPECT_NE(run({"techniques"}).out.find("raycast"), std::string::npos);
 }
 
@@ -58,6 +60,9 @@ TEST_F(CommandLine, UnknownNamesAreRefusedWithTheNearest) {
   expect_refusal(render({"--technique", "raycats", "-o", "a.png"}), 2, {"'raycats'", "did you mean 'raycast'"});
   expect_refusal(render({"--technique", "image-based:layerd", "-o", "a.png"}), 2, {"'layerd'", "'layered'"});
   expect_refusal(render({"-o", "a.exr:distnace"}), 2, {"unknown channel 'distnace'", "did you mean 'distance'"});
+  expect_refusal(render({"--effect", "wirefrme", "-o", "a.png"}), 2, {"'wirefrme'", "did you mean 'wireframe'"});
+  expect_refusal(render({"--effect", "wireframe:color=blck", "-o", "a.png"}), 2, {"color", "did you mean 'black'"});
+  expect_refusal(render({"--show", "edgse", "-o", "a.png"}), 2, {"'edgse'", "did you mean 'edges'"});
   expect_refusal(render({"--filter", "anisotropc", "-o", "a.png"}), 2, {"did you mean 'anisotropic'"});
   expect_refusal({"render", "facde", "--camera", "equidistant", "-o", "a.png"}, 2, {"'facde'", "'facade'"});
   expect_refusal({"render", "facade:colums=3", "--camera", "equidistant", "-o", "a.png"}, 2, {"'colums'"});
@@ -130,6 +135,8 @@ TEST_F(CommandLine, ContradictionsAreRefused) {
   expect_refusal(render({"--frames", "3", "-o", "a_%s.png"}), 2, {"%04d"});
   expect_refusal(render({"--frames", "3", "-o", "a_%d_%d.png"}), 2, {"two places"});
   expect_refusal(render({"-o", "a_%04d.png"}), 2, {"--frames"});
+  expect_refusal(render({"--effect", "brick", "--effect", "checker", "-o", "a.png"}), 2, {"brick", "checker"});
+  expect_refusal(render({"--effect", "brick", "-o", "a.exr:distance"}), 2, {"--effect", "colour"});
   expect_refusal({"render", "facade", "--camera", "equidistant:fov_deg=90,f=100", "-o", "a.png"}, 2, {"twice"});
 }
 

@@ -104,6 +104,16 @@ TEST_F(RenderCommand, BrokenPoseFilesAreRefused) {
   expect_refusal(render({"-o", "a.png", "--pose", "pose.glb"}), 3, {"pose.glb"});
 }
 
+TEST_F(RenderCommand, EffectsAndEdgesAreDrawnOverThePicture) {
+  ASSERT_EQ(run(render({"-o", "plain.npy"})).exit_code, 0);
+  ASSERT_EQ(run(render({"-o", "edges.npy", "--show", "edges"})).exit_code, 0);
+  ASSERT_EQ(run(render({"-o", "wires.npy", "--effect", "wireframe:width_px=2.5,color=ffffff"})).exit_code, 0);
+  ASSERT_EQ(run(render({"-o", "both.npy", "--effect", "brick", "--effect", "contours:width_px=3"})).exit_code, 0);
+  EXPECT_EQ(run({"compare", "plain.npy", "edges.npy", "--max-max", "0.2"}).exit_code, 1);
+  EXPECT_EQ(run({"compare", "edges.npy", "wires.npy", "--max-max", "0"}).exit_code, 0);
+  EXPECT_EQ(run({"compare", "plain.npy", "both.npy", "--max-max", "0.2"}).exit_code, 1);
+}
+
 TEST_F(RenderCommand, BackgroundIsTheColourAsked) {
   ASSERT_EQ(
       run(render({"-o", "a.npy", "--background", "0.25,0.5,2", "--from", "0,500,0", "--to", "0,900,1"})).exit_code, 0);

@@ -1,10 +1,8 @@
 // The scene's triangles by number, for stages that are not given vertices.
-#include "common/geometry.glsl"
+#include "technique/corners.glsl"
 
-layout(binding = 5) uniform samplerBuffer positions;
 layout(binding = 6) uniform usamplerBuffer attributes;
 layout(binding = 7) uniform samplerBuffer colors;
-layout(binding = 9) uniform usamplerBuffer triangles;
 
 // A part of an instance, as technique/gpu_scene.h has them, of 1024 triangles at most.
 struct PartRecord {
@@ -29,10 +27,5 @@ uint item_triangle(uint item) { return item & ((1u << ITEM_BITS) - 1u); }
 
 // The vertices' numbers.
 uvec3 item_corners(uint item, PartRecord part, InstanceRecord instance) {
-  uint id = part.first_triangle + item_triangle(item);
-  return texelFetch(triangles, int(instance.numbers.y + id - instance.numbers.x)).xyz;
-}
-
-vec3 corner_position(InstanceRecord instance, uint corner) {
-  return to_camera(instance, texelFetch(positions, int(corner)).xyz);
+  return corners_of(instance, part.first_triangle + item_triangle(item));
 }

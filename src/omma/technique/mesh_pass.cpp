@@ -63,11 +63,14 @@ const gl::Program& use_material(DrawTools& tools, const MeshPass& pass, const Vi
   gl::Defines defines = pass.defines;
   defines.merge(output_defines(view.outputs));
   defines.merge(tools.scene.materials().defines(material, view.anisotropic(), view.labels()));
+  defines.merge(effect_defines(view.effects));
   std::vector<gl::Stage> stages = pass.stages;
   stages.push_back({GL_FRAGMENT_SHADER, "technique/mesh.frag"});
   const gl::Program& program = tools.programs.get(stages, defines);
   program.use();
   pass.set_uniforms(program);
+  set_effects(program, view.effects);
+  if (!view.effects.empty()) tools.scene.bind_vertex_textures();
   tools.scene.materials().bind(material, view.anisotropic());
 
   // Image rows run downwards, which turns windings round once; a mirrored transform turns them again.
@@ -128,21 +131,28 @@ void MeshDrawer::draw_blended(const MeshPass& pass, const View& view) {
   const std::vector<Part>& parts = tools_.scene.parts();
   const Scene& scene = tools_.scene.scene();
   std::vector<glm::uvec3> sorted;
+  std::vector<uint32_t> ids;
   for (const BlendedTriangle& triangle : triangles) {
     const Part& part = parts[triangle.part];
     const Instance& instance = scene.instances[size_t(part.instance)];
     const uint32_t number = part.first_triangle - instance.first_triangle + triangle.number;
     sorted.push_back(scene.meshes[size_t(instance.mesh)].triangles[number] +
                      tools_.scene.first_vertex(size_t(instance.mesh)));
+    ids.push_back(part.first_triangle + triangle.number);
   }
   const gl::Buffer indices{std::span<const glm::uvec3>(sorted)};
+  const gl::Buffer id_buffer{std::span<const uint32_t>(ids)};
+  const gl::Texture id_texels = gl::Texture::of_buffer(GL_R32UI, id_buffer);
+  id_texels.bind(20);
+  MeshPass sorted_pass = pass;
+  sorted_pass.defines["SORTED"] = "";
 
   const SurfaceState state(tools_, true);
   glVertexArrayElementBuffer(tools_.scene.vertex_array().id(), indices.id());
   for (size_t begin = 0, end = 0; begin < triangles.size(); begin = end) {
     while (end < triangles.size() && triangles[end].part == triangles[begin].part) ++end;
     const Part& part = parts[triangles[begin].part];
-    use_material(tools_, pass, view, part.material, part.mirrored);
+    use_material(tools_, sorted_pass, view, part.material, part.mirrored).set("first_sorted", int(begin));
     const auto offset = reinterpret_cast<const void*>(begin * sizeof(glm::uvec3));
     glDrawElementsInstancedBaseInstance(GL_TRIANGLES, GLsizei(3 * (end - begin)), GL_UNSIGNED_INT, offset, 1,
                                         GLuint(triangles[begin].part));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "omma/base/error.h"
+#include "omma/base/names.h"
 #include "omma/technique/registry.h"
 #include "omma/technique/technique.h"
 
@@ -72,6 +73,27 @@ void paste(const Image& tile, const PixelRect& place, Image& whole) {
 
 }  // namespace
 
+const std::vector<ShowInfo>& shows() {
+  static const std::vector<ShowInfo> infos{{Show::edges, "edges", "the edges of all triangles, thick and white"}};
+  return infos;
+}
+
+Show show_from_name(const std::string& name) {
+  std::vector<std::string> names;
+  for (const ShowInfo& info : shows()) {
+    if (info.name == name) return info.show;
+    names.emplace_back(info.name);
+  }
+  throw CommandError("{}", unknown_name("thing to show", name, names));
+}
+
+std::vector<Effect> effects_of(const RenderOptions& options) {
+  std::vector<Effect> effects = options.effects;
+  if (options.show.contains(Show::edges)) effects.push_back(make_effect("wireframe:width_px=2.5,color=white"));
+  check_effects(effects);
+  return effects;
+}
+
 struct Renderer::Parts {
   gl::Context context;
   const Scene* scene = nullptr;
@@ -94,13 +116,15 @@ struct Renderer::Parts {
     return target;
   }
 
-  Image draw_color(Technique& technique, View view, const Passes& passes);
+  Image draw_color(Technique& technique, View view, const Passes& passes, std::span<const Effect> effects);
   void draw_channels(Technique& technique, View view, std::map<Channel, Image>& pictures);
 };
 
-Image Renderer::Parts::draw_color(Technique& technique, View view, const Passes& passes) {
+Image Renderer::Parts::draw_color(Technique& technique, View view, const Passes& passes,
+                                  std::span<const Effect> effects) {
   static constexpr Channel outputs[] = {Channel::color};
   view.outputs = outputs;
+  view.effects = effects;
   view.samples = passes.samples;
   const Target& picture = target_for(view.size(), outputs);
   if (passes.shifts.size() == 1) {
@@ -185,6 +209,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
   }
   if (options.tile < 0 || options.face_size < 0) throw CommandError("a tile or face size cannot be negative");
   const ChosenTechnique chosen = choose_technique(options.technique, camera);
+  const std::vector<Effect> effects = effects_of(options);
   parts.context.make_current();
   const gl::Limits& limits = parts.context.limits();
   Technique& technique = parts.technique(chosen);
@@ -205,7 +230,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
     view.face_size = options.face_size;
     view.pieces = options.pieces;
     if (pictures.contains(Channel::color)) {
-      paste(parts.draw_color(technique, view, passes), tile, pictures.at(Channel::color));
+      paste(parts.draw_color(technique, view, passes, effects), tile, pictures.at(Channel::color));
     }
     parts.draw_channels(technique, view, pictures);
   }

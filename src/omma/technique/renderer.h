@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,20 +15,40 @@
 #include "omma/camera/pieces/approximate.h"
 #include "omma/image/image.h"
 #include "omma/scene/scene.h"
+#include "omma/shading/effects.h"
 
 namespace omma {
 
 enum class Filter { trilinear, anisotropic };
 
+/// What is drawn over a picture to show how it is made.
+enum class Show { edges };
+
+struct ShowInfo {
+  Show show;
+  const char* name;
+  const char* description;
+};
+
+/// Everything that can be shown.
+const std::vector<ShowInfo>& shows();
+/// Throws CommandError with the nearest name when there is no such thing.
+Show show_from_name(const std::string& name);
+
 struct RenderOptions {
   std::string technique = "auto";  ///< `name` or `name:variant`, see techniques()
   int samples = 4;                 ///< colour samples per pixel, 1 to 1024
   Filter filter = Filter::anisotropic;
-  int face_size = 0;      ///< image-based: texels along a cube face, 0: the camera's density at its centre
-  PieceOptions pieces{};  ///< piecewise: how finely the camera is cut
-  int tile = 0;           ///< largest tile's side in pixels, 0: what the driver allows
+  int face_size = 0;              ///< image-based: texels along a cube face, 0: the camera's density at its centre
+  PieceOptions pieces{};          ///< piecewise: how finely the camera is cut
+  int tile = 0;                   ///< largest tile's side in pixels, 0: what the driver allows
+  std::vector<Effect> effects{};  ///< on colour, one after another; up to max_effects, what is shown included
+  std::set<Show> show{};          ///< over colour
   std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
 };
+
+/// The effects asked for, then those that show something. Throws CommandError for a chain that check_effects refuses.
+std::vector<Effect> effects_of(const RenderOptions& options);
 
 /// What a picture took. Times are milliseconds, of the GPU's own clock where there is a GPU.
 struct RenderStats {

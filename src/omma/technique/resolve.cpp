@@ -69,10 +69,12 @@ void Resolver::draw(const View& view, const VisibleTriangles& visible, bool blen
     gl::Defines defines = camera_defines(view.camera);
     defines.merge(output_defines(view.outputs));
     defines.merge(tools_.scene.materials().defines(material, view.anisotropic(), view.labels()));
+    defines.merge(effect_defines(view.effects));
     const gl::Program& program = tools_.programs.get(
         {{GL_VERTEX_SHADER, "technique/material_tile.vert"}, {GL_FRAGMENT_SHADER, "technique/resolve.frag"}}, defines);
     program.use();
     set_camera(program, view);
+    set_effects(program, view.effects);
     program.set("target_size", glm::vec2(visible.size.width, visible.size.height));
     program.set("side", float(tile_side));
     program.set("material", unsigned(material));

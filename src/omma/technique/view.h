@@ -18,6 +18,7 @@ struct View {
   glm::dvec2 shift{0.0};               ///< where in its pixel this pass samples, from the centre, pixels
   std::span<const Channel> outputs{};  ///< {color}, or channels other than color
   int samples = 1;                     ///< per pixel in this pass, as far as the technique multisamples
+  std::span<const Effect> effects{};   ///< on color
   Filter filter = Filter::anisotropic;
   int face_size = 0;
   PieceOptions pieces{};
