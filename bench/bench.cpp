@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/effects.h"
 #include "bench/image_based.h"
 #include "bench/piecewise.h"
 
@@ -16,6 +17,7 @@ constexpr Benchmark list[] = {
      run_image_based},
     {"piecewise", "perspective pieces against the cube map and a planar picture; growth with pieces and triangles",
      run_piecewise},
+    {"effects", "how evenly lines and strokes come out over the image, by technique", run_effects},
 };
 
 double percentile(const std::vector<double>& sorted, double share) {
