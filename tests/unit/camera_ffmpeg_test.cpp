@@ -141,7 +141,9 @@ INSTANTIATE_TEST_SUITE_P(
         Comparison{"sg:fov_deg=180,pitch_deg=-50", "sg:h_fov=180:v_fov=180:pitch=-50", {240, 240}},
         Comparison{"flat:fov_deg=90,roll_deg=20", "flat:h_fov=90:v_fov=90:roll=20", {240, 240}},
         Comparison{"e:yaw_deg=100,pitch_deg=40,roll_deg=-25", "e:yaw=100:pitch=40:roll=-25", {480, 240}},
-        Comparison{"barrel", "barrel", {600, 240}}, Comparison{"tsp", "tsp", {480, 240}}),
+        Comparison{"barrel", "barrel", {600, 240}}, Comparison{"barrelsplit", "barrelsplit", {600, 400}},
+        Comparison{"barrelsplit:scale=0.95", "barrelsplit:out_pad=0.05", {600, 400}},
+        Comparison{"tsp", "tsp", {480, 240}}),
     [](const auto& comparison) {
       std::string name = comparison.param.options;
       std::ranges::replace_if(

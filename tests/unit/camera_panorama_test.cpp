@@ -1,5 +1,4 @@
-// Panoramas and layouts: values worked out from the published formulae, what each projection preserves, where the parts
-// of a layout lie.
+// Panoramas: values worked out from the published formulae, and what each projection preserves.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,28 +7,10 @@
 #include <map>
 
 #include "omma/camera/camera.h"
+#include "tests/unit/camera_directions.h"
 
 namespace omma {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double radians(double deg) { return deg * pi / 180.0; }
-
-// In the camera frame.
-glm::dvec3 direction_at(double longitude_deg, double latitude_deg) {
-  const double a = radians(longitude_deg), b = radians(latitude_deg);
-  return {std::sin(a) * std::cos(b), std::sin(b), -std::cos(a) * std::cos(b)};
-}
-
-glm::dvec3 optical(const glm::dvec3& camera) { return {camera.x, -camera.y, -camera.z}; }
-
-std::vector<const LensModel*> models_of(const char* group) {
-  std::vector<const LensModel*> models;
-  for (const LensModel& model : lens_models()) {
-    if (std::string_view(model.info.group) == group) models.push_back(&model);
-  }
-  return models;
-}
 
 // As in an atlas: longitude to the right and latitude up in degrees, x to the right and y up in focal lengths.
 struct MapPoint {
@@ -142,6 +123,27 @@ const std::map<std::string, MapValues> map_values = {
         {60, -50, 1.3856591206632831, -1.9886833895327754},
         {-20, -85, -0.35822312683231649, -12.032742877985469},
         {10, 5, 0.17564960629166387, 0.089179642297904641}}}}},
+    {"lambert_conformal_conic",
+     {{20, 50},
+      {{{30, 45, 0.35723501904240999, 0.85199743120646457},
+        {-75, 20, -1.1151022445371425, 0.81722844579299774},
+        {60, -50, 2.0441405013851139, -0.94754245282124650},
+        {-20, -85, -2.4659968266315662, -10.014375314746106},
+        {10, 5, 0.19139135462317675, 0.10815840586355972}}}}},
+    {"biplane",
+     {{60},
+      {{{30, 45, 0.57735026918962576, 1.0},
+        {-75, 20, -1.5773502691896258, 0.51473164159937599},
+        {60, -50, 1.1547005383792515, -1.3761185149839414},
+        {-20, -85, -0.40102328848116079, -11.606379283469808},
+        {10, 5, 0.21338003492342340, 0.093103491067912389}}}}},
+    {"triplane",
+     {{50},
+      {{{30, 45, 0.56864508204379482, 1.0641777724759121},
+        {-75, 20, -1.3989229744649958, 0.40159671964893297},
+        {60, -50, 1.1089422970184622, -1.2101383127306031},
+        {-20, -85, -0.36397023426620236, -12.163607598835736},
+        {10, 5, 0.17632698070846497, 0.088838317182540968}}}}},
 };
 
 class EveryPanorama : public testing::TestWithParam<const LensModel*> {};
@@ -172,22 +174,6 @@ TEST(EquirectangularPanorama, LooksUpTheSameWithAndWithoutRanges) {
     EXPECT_NEAR(part.project(direction)->x - whole.project(direction)->x, -200.0, 1e-10) << longitude;
     EXPECT_NEAR(part.project(direction)->y, whole.project(direction)->y, 1e-10) << longitude;
   }
-}
-
-// The derivatives of the plane's point along the parallel and the meridian, by the unit of arc.
-std::array<glm::dvec2, 2> scales(const LensModel& model, const LensParameters& parameters, double longitude_deg,
-                                 double latitude_deg) {
-  const double step = 1e-4;  // degrees
-  const auto at = [&](double longitude, double latitude) {
-    glm::dvec2 plane;
-    EXPECT_TRUE(model.project(parameters, optical(direction_at(longitude, latitude)), plane));
-    return plane;
-  };
-  const glm::dvec2 east = (at(longitude_deg + step, latitude_deg) - at(longitude_deg - step, latitude_deg)) /
-                          (radians(2 * step) * std::cos(radians(latitude_deg)));
-  const glm::dvec2 north =
-      (at(longitude_deg, latitude_deg + step) - at(longitude_deg, latitude_deg - step)) / radians(2 * step);
-  return {east, north};
 }
 
 template <typename Visit>
@@ -231,7 +217,10 @@ TEST(ConformalPanoramas, KeepAngles) {
   for_each_place("mercator", {}, 178, 85, is_similar);
   for_each_place("transverse_mercator", {}, 170, 85, is_similar);
   for_each_place("stereographic", {}, 170, 85, is_similar);
-  EXPECT_EQ(count, 3U * 121U);
+  for_each_place("lambert_conformal_conic", {}, 178, 85, is_similar);
+  for_each_place("lambert_conformal_conic", {-10, -50}, 178, 85, is_similar);
+  for_each_place("lambert_conformal_conic", {60, 60}, 178, 85, is_similar);
+  EXPECT_EQ(count, 6U * 121U);
 }
 
 TEST(AlbersPanorama, BecomesTheCylinderWhereItsParallelsAreOpposite) {
@@ -250,6 +239,60 @@ TEST(AlbersPanorama, BecomesTheCylinderWhereItsParallelsAreOpposite) {
     glm::dvec3 back;
     ASSERT_TRUE(albers.unproject(opposite, found * (1 - 1e-12), back));
     EXPECT_LT(glm::distance(back, direction), 3e-6);
+  }
+}
+
+TEST(LambertConformalConicPanorama, BecomesMercatorWhereItsParallelsAreOpposite) {
+  const LensModel &conic = *find_lens_model("lambert_conformal_conic"), &mercator = *find_lens_model("mercator");
+  const LensParameters opposite = lens_parameters(conic.info, std::vector<double>{-30, 30});
+  const LensParameters nearly = lens_parameters(conic.info, std::vector<double>{-30, 30 + 1e-9});
+  for (const auto& [longitude, latitude] : {std::pair(170.0, 80.0), std::pair(-60.0, -20.0), std::pair(5.0, 0.0)}) {
+    const glm::dvec3 direction = optical(direction_at(longitude, latitude));
+    glm::dvec2 expected, found, near;
+    ASSERT_TRUE(mercator.project(lens_parameters(mercator.info), direction, expected));
+    ASSERT_TRUE(conic.project(opposite, direction, found));
+    ASSERT_TRUE(conic.project(nearly, direction, near));
+    // True to scale at 30 degrees instead of at the equator.
+    expected *= std::cos(radians(30));
+    EXPECT_LT(glm::distance(found, expected), 2e-15);
+    EXPECT_LT(glm::distance(near, expected), 1e-9);
+    for (const LensParameters& parameters : {opposite, nearly}) {
+      glm::dvec3 back;
+      ASSERT_TRUE(conic.unproject(parameters, found, back));
+      EXPECT_LT(glm::distance(back, direction), 1e-9);
+    }
+  }
+}
+
+TEST(LambertConformalConicPanorama, IsTrueToScaleOnItsParallels) {
+  const LensModel& model = *find_lens_model("lambert_conformal_conic");
+  for (const std::array<double, 2>& parallels : {std::array{20.0, 50.0}, {-60.0, 10.0}, {45.0, 45.0}}) {
+    const LensParameters parameters = lens_parameters(model.info, parallels);
+    for (const double latitude : parallels) {
+      const auto [east, north] = scales(model, parameters, 33, latitude);
+      EXPECT_NEAR(glm::length(east), 1.0, 1e-9) << latitude;
+      EXPECT_NEAR(glm::length(north), 1.0, 1e-9) << latitude;
+    }
+  }
+}
+
+TEST(PlanePanoramas, KeepStraightLinesWithinAPlane) {
+  // A rod beside the camera: its picture is bent at the corner alone.
+  for (const auto& [name, corner] : {std::pair("biplane", 0.0), {"triplane", std::tan(radians(22.5))}}) {
+    const LensModel& model = *find_lens_model(name);
+    const LensParameters parameters = lens_parameters(model.info);
+    std::array<glm::dvec2, 3> points;
+    const auto bend = [&](double from, double to) {
+      for (int i = 0; i < 3; ++i) {
+        const double x = from + 0.5 * i * (to - from);
+        EXPECT_TRUE(model.project(parameters, {x, -0.7 + 0.1 * x, 1.0}, points[static_cast<size_t>(i)]));
+      }
+      const glm::dvec2 a = points[1] - points[0], b = points[2] - points[0];
+      return std::abs(a.x * b.y - a.y * b.x) / (glm::length(a) * glm::length(b));
+    };
+    EXPECT_LT(bend(corner + 0.01, 5.0), 1e-14) << name;
+    EXPECT_LT(bend(-5.0, -corner - 0.01), 1e-14) << name;
+    EXPECT_GT(bend(corner - 0.3, corner + 0.3), 0.05) << name;
   }
 }
 
@@ -283,150 +326,6 @@ TEST(PaniniPanorama, IsCalledEquiPaniniByHugin) {
   ASSERT_TRUE(model.project(lens_parameters(model.info), optical(direction_at(60, 40)), plane));
   EXPECT_NEAR(plane.x, 2 * std::tan(radians(30)), 1e-15);
   EXPECT_NEAR(-plane.y, std::tan(radians(40)) / std::pow(std::cos(radians(30)), 2), 1e-14);
-}
-
-// A direction (x right, y up, z behind) and where in an image of 100 by 100 parts of a percent it lies.
-struct Place {
-  glm::dvec3 direction;
-  glm::dvec2 percent;
-};
-
-const std::map<std::string, std::vector<Place>> places = {
-    // right, left, up / down, front, back
-    {"cube_3x2",
-     {{{1, 0, 0}, {100 / 6.0, 25}},
-      {{-1, 0, 0}, {50, 25}},
-      {{0, 1, 0}, {500 / 6.0, 25}},
-      {{0, -1, 0}, {100 / 6.0, 75}},
-      {{0, 0, -1}, {50, 75}},
-      {{0, 0, 1}, {500 / 6.0, 75}},
-      {{0.5, 0.5, -1}, {350 / 6.0, 62.5}},
-      {{1, 0.5, 0.5}, {150 / 6.0, 12.5}},
-      {{0.5, 1, -0.5}, {550 / 6.0, 37.5}}}},
-    {"cube_6x1",
-     {{{1, 0, 0}, {100 / 12.0, 50}},
-      {{0, 0, -1}, {900 / 12.0, 50}},
-      {{0, 0, 1}, {1100 / 12.0, 50}},
-      {{0.5, 0.25, 1}, {1050 / 12.0, 37.5}}}},
-    {"cube_1x6", {{{-1, 0, 0}, {50, 25}}, {{0, 1, 0}, {50, 500 / 12.0}}, {{0, -1, 0.5}, {50, 750 / 12.0}}}},
-    // left, front, right / down, back, up; at 45 degrees a quarter of a face is half its pixels
-    {"eac",
-     {{{-1, 0, 0}, {100 / 6.0, 25}},
-      {{0, 0, -1}, {50, 25}},
-      {{1, 0, 0}, {500 / 6.0, 25}},
-      {{0, -1, 0}, {100 / 6.0, 75}},
-      {{0, 0, 1}, {50, 75}},
-      {{0, 1, 0}, {500 / 6.0, 75}},
-      {{std::tan(pi / 8), 0, -1}, {350 / 6.0, 25}},
-      // The middle row of faces is continuous below, too: the nadir's far edge meets the back face.
-      {{0, -1, 0.999999999}, {200 / 6.0, 75}},
-      {{0, -0.999999999, 1}, {200 / 6.0, 75}},
-      {{0, 1, 0.999999999}, {400 / 6.0, 75}}}},
-    {"octahedral",
-     {{{0, 0, -1}, {50, 50}},
-      {{1, 0, 0}, {100, 50}},
-      {{0, 1, 0}, {50, 0}},
-      {{1, 1, -1}, {100 * 4 / 6.0, 100 * 2 / 6.0}},
-      {{1, 1, 1}, {100 * 5 / 6.0, 100 / 6.0}}}},
-    // pbrt: z = 1 - r² at the distance r = |x| + |y| from the middle
-    {"octahedral_equal_area",
-     {{{0, 0, -1}, {50, 50}},
-      {{1, 0, 0}, {100, 50}},
-      {{0, -1, 0}, {50, 100}},
-      {{std::sqrt(1.75 * 0.25), 0, -0.75}, {75, 50}},
-      {{std::sqrt(0.5 * 1.75 * 0.25), std::sqrt(0.5 * 1.75 * 0.25), -0.75}, {62.5, 37.5}},
-      {{std::sqrt(0.5 * 1.75 * 0.25), std::sqrt(0.5 * 1.75 * 0.25), 0.75}, {87.5, 12.5}}}},
-    {"tetrahedral", {{{1, 1, 1}, {50, 100}}, {{1, -1, -1}, {50, 0}}, {{-1, 1, -1}, {0, 100}}, {{1, 0, 0}, {50, 50}}}},
-    // scale 0.99 of 80 percent by 100 percent, and of 20 percent by 50 percent
-    {"barrel",
-     {{{0, 0, -1}, {40, 50}},
-      {{1, 0, 0}, {40 + 20 * 0.99, 50}},
-      {{0, 1, -1.0000001}, {40, 50 - 50 * 0.99}},
-      {{0, 1, 0}, {90, 25}},
-      {{0, -1, 0}, {90, 75}},
-      {{0.5, 1, 0}, {90 + 5 * 0.99, 25}},
-      {{0, 1, -0.5}, {90, 25 + 12.5 * 0.99}}}},
-    {"pyramid",
-     {{{0, 0, -1}, {25, 50}},
-      {{0.5, 0.5, -1}, {37.5, 25}},
-      {{0, 0, 1}, {75, 50}},
-      {{1, 0, 0}, {75 - 25 * 0.625, 50}},
-      {{-1, 0, 0}, {75 + 25 * 0.625, 50}},
-      {{0, 1, 0}, {75, 50 - 50 * 0.625}}}},
-    {"dual_fisheye",
-     {{{0, 0, -1}, {75, 50}},
-      {{0, 0, 1}, {25, 50}},
-      {{1, 0, -1}, {87.5, 50}},
-      {{1, 0, 1}, {12.5, 50}},
-      {{0, 1, 1}, {25, 25}}}},
-};
-
-class EveryLayout : public testing::TestWithParam<const LensModel*> {};
-
-INSTANTIATE_TEST_SUITE_P(Camera, EveryLayout, testing::ValuesIn(models_of("layout")),
-                         [](const auto& lens) { return std::string(lens.param->info.name); });
-
-TEST_P(EveryLayout, HasItsPartsWhereTheFormatSays) {
-  const LensModel& model = *GetParam();
-  const auto found = places.find(model.info.name);
-  ASSERT_NE(found, places.end()) << "say where directions lie in this layout";
-  // Whatever the image's shape.
-  for (const ImageSize size : {ImageSize{600, 400}, ImageSize{300, 700}}) {
-    const Camera camera = make_camera(model.info.name, size);
-    for (const Place& place : found->second) {
-      const glm::dvec2 expected = place.percent * 0.01 * glm::dvec2(size.width, size.height);
-      const auto pixel = camera.project(place.direction);
-      ASSERT_TRUE(pixel);
-      EXPECT_LT(glm::distance(*pixel, expected), 1e-4)
-          << pixel->x << ", " << pixel->y << " instead of " << expected.x << ", " << expected.y;
-    }
-  }
-}
-
-TEST_P(EveryLayout, FillsTheImageAndShowsTheWholeSphere) {
-  const LensModel& model = *GetParam();
-  const Camera camera = make_camera(model.info.name, ImageSize{210, 123});
-  size_t seen = 0;
-  for (int y = 0; y < 123; ++y) {
-    for (int x = 0; x < 210; ++x) seen += camera.unproject({x + 0.5, y + 0.5}).has_value();
-  }
-  // Circles leave the corners.
-  const double share = std::string_view(model.info.name) == "dual_fisheye" ? pi / 4 : 1.0;
-  EXPECT_NEAR(static_cast<double>(seen), share * 210 * 123, share == 1.0 ? 0.0 : 100.0);
-  for (int i = 0; i < 5000; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / 5000.0, rho = std::sqrt(1.0 - z * z), turn = 2.399963 * i;
-    const glm::dvec3 direction(rho * std::cos(turn), rho * std::sin(turn), z);
-    const auto pixel = camera.project(direction);
-    ASSERT_TRUE(pixel) << i;
-    ASSERT_TRUE(pixel->x >= -1e-9 && pixel->x <= 210 + 1e-9 && pixel->y >= -1e-9 && pixel->y <= 123 + 1e-9) << i;
-    const auto back = camera.unproject(*pixel);
-    ASSERT_TRUE(back) << i;
-    EXPECT_LT(glm::distance(back->direction, direction), 1e-12) << i;
-  }
-}
-
-TEST(Layouts, GiveEqualSolidAnglesEqualAreasWhereTheySaySo) {
-  const LensModel& model = *find_lens_model("octahedral_equal_area");
-  const LensParameters parameters = lens_parameters(model.info);
-  for (int i = 0; i < 500; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / 500.0, turn = 2.399963 * i;
-    const auto [east, north] = scales(model, parameters, turn * 180 / pi, std::asin(z) * 180 / pi);
-    // Four units of area for 4π of solid angle.
-    const double area = std::abs(east.x * north.y - east.y * north.x);
-    if (glm::length(east) > 10 || glm::length(north) > 10) continue;  // the difference spans a fold
-    EXPECT_NEAR(area, 1 / pi, 1e-6) << i;
-  }
-}
-
-TEST(DualFisheye, OverlapsBeyondAHemisphereAndHasGapsBelow) {
-  const Camera wide = make_camera("dual_fisheye:circle_fov_deg=200", ImageSize{400, 200});
-  // Ten degrees behind the left and right are at the edge of the front circle as well.
-  EXPECT_NEAR(wide.unproject({399.999, 100})->direction.z, std::sin(radians(10)), 1e-4);
-  EXPECT_LT(wide.project({1, 0, 0.1})->x, 200.0);
-  const Camera narrow = make_camera("dual_fisheye:circle_fov_deg=160", ImageSize{400, 200});
-  EXPECT_FALSE(narrow.project({1, 0, 0}));
-  EXPECT_TRUE(narrow.project(direction_at(79, 0)));
-  EXPECT_TRUE(narrow.project(direction_at(101, 0)));
 }
 
 }  // namespace

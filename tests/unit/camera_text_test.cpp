@@ -74,7 +74,8 @@ TEST(CameraText, SpansTheExtentThatFitNames) {
   size_t count = 0, expected = 0;
   for (const LensModel& model : lens_models()) {
     // A layout has no field of view; the parallels of a conic are no rows.
-    if (model.info.max_fov_deg == 0 || std::string_view(model.info.name) == "albers") continue;
+    const std::string_view name = model.info.name;
+    if (model.info.max_fov_deg == 0 || name == "albers" || name == "lambert_conformal_conic") continue;
     expected += 5;
     for (const auto& [fit, edge] : cases) {
       const std::string text = fmt::format("{}:fov_deg=120,fit={},width=400,height=300", model.info.name, fit);
