@@ -15,6 +15,12 @@ function(page name introduction)
   if(EXISTS ${page})
     file(READ ${page} written)
   endif()
+  string(REGEX MATCHALL "images/cameras/[a-z0-9_]+\\.jpg" pictures "${text}")
+  foreach(picture ${pictures})
+    if(NOT EXISTS ${CMAKE_CURRENT_LIST_DIR}/${picture})
+      message(FATAL_ERROR "docs/${picture} is missing; ./dev docs renders it")
+    endif()
+  endforeach()
   if(NOT text STREQUAL written)
     message(FATAL_ERROR "${page} is not what ${OMMA} says; ./dev docs writes it anew")
   endif()
@@ -23,7 +29,8 @@ endfunction()
 page(cameras "# Cameras
 
 Written by `./dev docs` from `src/omma/camera/models/`. θ is the angle from the optical axis and r the distance from the
-principal point in focal lengths; [conventions.md](conventions.md) has frames and units.")
+principal point in focal lengths; [conventions.md](conventions.md) has frames and units. The pictures are of each lens's
+example, in the middle of a street.")
 
 page(effects "# Effects
 

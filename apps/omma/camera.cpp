@@ -91,9 +91,12 @@ CameraFit convert(const Camera& camera, const std::string& text) {
   return fit_camera(camera, *model, split(text.substr(colon + 1), ','));
 }
 
-Json describe(const Residual& residual) {
-  return {{"points", residual.points}, {"not_seen", residual.lost}, {"mean_px", residual.mean_px},
-          {"p95_px", residual.p95_px}, {"max_px", residual.max_px}, {"max_at", {residual.max_at.x, residual.max_at.y}}};
+Json describe(const CameraFit& fit) {
+  const Residual& residual = fit.residual;
+  return {{"part_of_image", fit.part},   {"within_deg", fit.angle * degrees_per_radian},
+          {"points", residual.points},   {"not_seen", residual.lost},
+          {"mean_px", residual.mean_px}, {"p95_px", residual.p95_px},
+          {"max_px", residual.max_px},   {"max_at", {residual.max_at.x, residual.max_at.y}}};
 }
 
 PieceOptions piece_options(const Options& options) {
@@ -135,7 +138,7 @@ std::string value_text(const Json& value) {
 void print_text(const Json& json) {
   for (const auto& [key, value] : json.items()) {
     if (value.is_object()) {
-      for (const auto& [name, number] : value.items()) fmt::print("{:<20}{}\n", key + ' ' + name, value_text(number));
+      for (const auto& [name, number] : value.items()) fmt::print("{:<24}{}\n", key + ' ' + name, value_text(number));
       continue;
     }
     if (key != "project" && key != "unproject") {
@@ -189,14 +192,13 @@ void run(const Options& options) {
   std::optional<ImageSize> size;
   if (options.size) size = size_of("--size", *options.size);
   Camera camera = make_camera(options.camera, size);
-  std::optional<Residual> residual;
+  std::optional<CameraFit> fit;
   if (options.model) {
-    CameraFit fit = convert(camera, *options.model);
-    camera = std::move(fit.camera);
-    residual = fit.residual;
+    fit = convert(camera, *options.model);
+    camera = fit->camera;
   }
   Json json = describe(camera);
-  if (residual) json["residual"] = describe(*residual);
+  if (fit) json["residual"] = describe(*fit);
   if (!options.project.empty()) json["project"] = projections(camera, options);
   if (!options.unproject.empty()) json["unproject"] = unprojections(camera, options);
   if (options.rays) write_rays(*options.rays, camera);

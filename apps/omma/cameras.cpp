@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "omma/camera/deformation/deformation.h"
+#include "omma/camera/lens_model.h"
 #include "omma/camera/lens_table.h"
 
 namespace omma::tool {
@@ -25,14 +26,20 @@ std::string deformation_text() {
 void add_cameras(CLI::App& tool) {
   CLI::App* command = tool.add_subcommand("cameras", "List the lenses and their parameters");
   auto markdown = std::make_shared<bool>(false);
+  auto examples = std::make_shared<bool>(false);
   command->add_flag("--markdown", *markdown, "Print the tables of docs/cameras.md");
+  command->add_flag("--examples", *examples, "Print NAME CAMERA for each lens: its example")->excludes("--markdown");
   command->footer(
       "A camera is written NAME:KEY=VALUE,KEY=VALUE or is the name of a ray map, a .npy file with H x W x 3 "
       "directions.\n"
       "Examples:\n"
       "  omma cameras\n"
       "  omma camera equidistant:fov_deg=180,fit=diagonal    what one camera comes to");
-  command->callback([markdown] {
+  command->callback([markdown, examples] {
+    if (*examples) {
+      for (const LensModel& model : lens_models()) fmt::print("{} {}\n", model.info.name, model.info.example);
+      return;
+    }
     fmt::print("{}", *markdown ? omma::lens_table_markdown() : omma::lens_table_text() + deformation_text());
   });
 }

@@ -55,6 +55,16 @@ std::string heading(std::string group) {
   return group + " lenses";
 }
 
+// Those of the examples, three in a row; docs/camera_pictures.sh renders them.
+std::string pictures(const std::vector<const LensInfo*>& lenses) {
+  std::string text = "\n| | | |\n|---|---|---|\n";
+  for (size_t i = 0; i < lenses.size() || i % 3 != 0; ++i) {
+    text += i < lenses.size() ? fmt::format("| ![{0}](images/cameras/{0}.jpg) `{0}` ", lenses[i]->name) : "| ";
+    if (i % 3 == 2) text += "|\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string lens_table_markdown() {
@@ -71,6 +81,7 @@ std::string lens_table_markdown() {
       text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", info->name, all_names(*info), info->formula,
                           fov_range(*info), default_fov(*info), default_fit(*info), info->source);
     }
+    text += pictures(lenses);
     for (const LensInfo* info : lenses) {
       if (info->parameters.empty()) continue;
       text += fmt::format("\nParameters of `{}`, for example `{}`:\n\n", info->name, info->example);

@@ -9,7 +9,7 @@ inline constexpr LensInfo biplane_info = {
     .name = "biplane",
     .group = "panoramic",
     .also = "hugin_biplane",
-    .formula = "x = ±(tan(a/2) + tan(|longitude| - a/2)), y = tan(latitude) / cos(|longitude| - a/2)",
+    .formula = "x = tan(a/2) + tan(longitude - a/2), y = tan(latitude) / cos(longitude - a/2); mirrored on the left",
     .source = "Hugin Biplane (17), libpano13",
     .example = "biplane:fov_deg=150,angle_deg=60",
     .default_fov_deg = 140,

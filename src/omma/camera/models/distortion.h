@@ -88,26 +88,27 @@ LENS_FUNCTION bool undistort(Distortion d, vec2 target, real limit, OUT(vec2) u)
 // symmetric part of the derivative is positive definite. The radial part alone is to rise up to `limit`. Looked for
 // along 64 directions in steps of a few percent.
 inline double invertible_radius(const Distortion& d, double limit) {
-  const auto unique = [&](double angle, double r) {
+  const auto unique = [&](const glm::dvec2& direction, double r) {
     vec2 distorted;
     vec4 slope;
-    distort(d, vec2(std::cos(angle) * r, std::sin(angle) * r), distorted, slope);
+    distort(d, vec2(direction * r), distorted, slope);
     const double shear = 0.5 * (slope.y + slope.z);
     return slope.x > 0 && slope.w > 0 && slope.x * slope.w > shear * shear;
   };
   if (d.tangential == vec2(real(0)) && d.prism == vec4(real(0))) return limit;
   for (int i = 0; i < 64; ++i) {
-    const double angle = i * pi / 32;
+    const glm::dvec2 direction(std::cos(i * pi / 32), std::sin(i * pi / 32));
     constexpr int steps = 512;
-    double inside = 0, outside = limit;
-    for (int step = 0; step < steps && outside == limit; ++step) {
-      const double r = limit * std::pow(1e-3 / (1 + limit), 1 - (step + 1.0) / steps);
-      (unique(angle, r) ? inside : outside) = r;
+    const double growth = std::pow((1 + limit) / 1e-3, 1.0 / steps);
+    double inside = 0, outside = limit, r = limit * 1e-3 / (1 + limit);
+    for (int step = 1; step <= steps && outside == limit; ++step) {
+      r = step == steps ? limit : r * growth;
+      (unique(direction, r) ? inside : outside) = r;
     }
     if (inside >= outside) continue;
     for (int halving = 0; halving < 60; ++halving) {
       const double middle = 0.5 * (inside + outside);
-      (unique(angle, middle) ? inside : outside) = middle;
+      (unique(direction, middle) ? inside : outside) = middle;
     }
     limit = inside;
   }

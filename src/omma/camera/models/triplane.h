@@ -10,8 +10,8 @@ inline constexpr LensInfo triplane_info = {
     .group = "panoramic",
     .also = "hugin_triplane",
     .formula =
-        "|longitude| ≤ a/2: x = tan(longitude), y = tan(latitude) / cos(longitude); beyond: x = ±(2 tan(a/2) + "
-        "tan(|longitude| - a)), y = tan(latitude) / cos(|longitude| - a)",
+        "to a/2 as perspective; beyond x = 2 tan(a/2) + tan(longitude - a), y = tan(latitude) / cos(longitude - a); "
+        "mirrored on the left",
     .source = "Hugin Triplane (18), libpano13",
     .example = "triplane:fov_deg=170,angle_deg=60",
     .default_fov_deg = 180,
