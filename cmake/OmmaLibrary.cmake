@@ -13,7 +13,7 @@ target_compile_options(
                          $<BUILD_INTERFACE:-ffp-contract=off>)
 if(OMMA_SANITIZE)
   # GCC cannot tell what is initialized once its sanitizers have rewritten the code, and says so of std::regex.
-  target_compile_options(omma_options INTERFACE $<BUILD_INTERFACE:-Wno-maybe-uninitialized>)
+  target_compile_options(omma_options INTERFACE $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>>)
   target_compile_options(omma_options INTERFACE $<BUILD_INTERFACE:-fsanitize=${OMMA_SANITIZE} -fno-omit-frame-pointer
                                                 -fno-sanitize-recover=all>)
   target_link_options(omma_options INTERFACE $<BUILD_INTERFACE:-fsanitize=${OMMA_SANITIZE}>)

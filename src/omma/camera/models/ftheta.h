@@ -1,6 +1,7 @@
 // NVIDIA's f-theta: a polynomial either from the angle to the distance in pixels or from the distance to the angle
 // (`reference` says which; the other direction is its exact inverse), then a linear term. The coefficients are for
-// pixels, to be taken with f=1. It holds as far as the polynomial rises; NVIDIA's maximum angle is max_angle_deg.
+// pixels, to be taken with f=1. It holds as far as the polynomial rises; NVIDIA's maximum angle is max_angle_deg, and its
+// principal point counts from the centre of the first pixel: cx and cy need 0.5 added.
 #ifdef __cplusplus
 inline constexpr LensParameterInfo ftheta_parameters[] = {
     {"k1", 1, -1e9, 1e9, "coefficient of the angle (radians) or distance (pixels), positive"},
@@ -21,7 +22,7 @@ inline constexpr LensInfo ftheta_info = {
     .formula = "r = k1 θ + … + k5 θ⁵, or θ = k1 r + … + k5 r⁵; (x, y) ↦ (c x + d y, e x + y)",
     .source = "NVIDIA DriveWorks, FTheta camera model; gsplat FThetaCameraDistortionParameters",
     .example =
-        "ftheta:f=1,cx=959.849793,cy=743.254822,width=1920,height=1080,max_angle_deg=77.13,"
+        "ftheta:f=1,cx=960.099793,cy=743.504822,width=1920,height=1080,max_angle_deg=77.13,"
         "k1=0.0010574288899,k2=3.8427288e-08,k3=-1.10690762e-10,k4=1.66371616e-13,k5=-6.0194548e-17,"
         "c=0.9996691346,d=3.400261676e-06,e=3.736908184e-05,reference=pixeldist_to_angle",
     .default_fov_deg = 0,
