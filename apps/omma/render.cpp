@@ -12,6 +12,7 @@
 #include "omma/base/error.h"
 #include "omma/base/file.h"
 #include "omma/base/names.h"
+#include "omma/base/numbered_name.h"
 #include "omma/camera/deformation/deformation.h"
 #include "omma/image/write.h"
 #include "omma/technique/registry.h"
@@ -130,6 +131,19 @@ class Job {
     return make_camera(text_of_frame(camera_text_, frame.number), camera_.size());
   }
 
+  /// Fails before the first frame is drawn where a later one would find no file.
+  void require_camera_files(const std::vector<Frame>& frames) const {
+    if (!changes_with_frame(camera_text_)) return;
+    const std::string pattern = parse_spec(camera_text_).values.at("file");
+    for (const Frame& frame : frames) {
+      const fs::path path = numbered_name(pattern, frame.number);
+      if (!fs::exists(path)) {
+        throw InputError("{}: there is no such file, and frame {} takes its camera from it", path.string(),
+                         frame.number);
+      }
+    }
+  }
+
   bool numbered() const {
     return std::all_of(outputs_.begin(), outputs_.end(), [](const Output& output) { return output.has_pattern(); });
   }
@@ -175,6 +189,7 @@ class Job {
   }
 
   void render(const std::vector<Frame>& frames, JobStats& stats) {
+    require_camera_files(frames);
     auto begin = std::chrono::steady_clock::now();
     Scene scene = load_scene(scene_text_);
     if (view_.names_time() && scene.animations.empty()) {

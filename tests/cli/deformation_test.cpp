@@ -94,5 +94,12 @@ TEST_F(DeformationCommand, ACameraTextureOfEachFrameIsDrawn) {
   EXPECT_FALSE(std::isfinite(*moved.at(2, 2)));
 }
 
+TEST_F(DeformationCommand, AMissingFileOfASequenceIsFoundBeforeTheFirstFrame) {
+  write_pfm(file("o_00.pfm"), FloatImage({2, 2}, 3, 0.0F));
+  expect_refusal({"render", "facade", "--camera", "camera_texture:base=perspective,file=o_%02d.pfm", "--size", "32x32",
+                  "--frames", "2", "-o", "f_%d.npy:distance"},
+                 3, {"o_01.pfm", "no such file", "frame 1"});
+}
+
 }  // namespace
 }  // namespace omma
