@@ -22,7 +22,7 @@ bool is_front() {
 }
 
 #ifdef SORTED
-layout(binding = 20) uniform usamplerBuffer sorted_triangles;  // ids in the order in which they are drawn
+layout(binding = 24) uniform usamplerBuffer sorted_triangles;  // ids in the order in which they are drawn
 uniform int first_sorted;
 #endif
 

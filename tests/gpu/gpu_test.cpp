@@ -56,6 +56,14 @@ std::vector<std::string> technique_names() {
   return names;
 }
 
+std::vector<std::string> distinct_technique_names() {
+  std::vector<std::string> names = technique_names();
+  std::erase_if(names, [](const std::string& name) {
+    return name.starts_with("piecewise:") && name != "piecewise:compute";  // PiecewiseTest.VariantsDrawTheSamePicture
+  });
+  return names;
+}
+
 bool can_draw(const std::string& technique, const Camera& camera) {
   try {
     choose_technique(technique, camera);

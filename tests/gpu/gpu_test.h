@@ -34,6 +34,8 @@ std::vector<NamedCamera> all_cameras(int side);
 
 /// Every technique in every variant, as render takes it.
 std::vector<std::string> technique_names();
+/// Those without the variants that tests of their own show to draw the same picture, only slower.
+std::vector<std::string> distinct_technique_names();
 bool can_draw(const std::string& technique, const Camera& camera);
 
 /// Where the scene says to stand.

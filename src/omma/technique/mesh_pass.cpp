@@ -143,7 +143,7 @@ void MeshDrawer::draw_blended(const MeshPass& pass, const View& view) {
   const gl::Buffer indices{std::span<const glm::uvec3>(sorted)};
   const gl::Buffer id_buffer{std::span<const uint32_t>(ids)};
   const gl::Texture id_texels = gl::Texture::of_buffer(GL_R32UI, id_buffer);
-  id_texels.bind(20);
+  id_texels.bind(24);
   MeshPass sorted_pass = pass;
   sorted_pass.defines["SORTED"] = "";
 
