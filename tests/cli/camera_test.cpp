@@ -48,6 +48,32 @@ TEST_F(CameraCommand, WrongValuesAreRefused) {
   expect_refusal({"camera", "equidistant", "--rays", "rays.png"}, 2, {".npy"});
 }
 
+TEST_F(CameraCommand, PiecesAreACamera) {
+  const ToolResult made =
+      run({"camera", "cylinder", "--size", "320x200", "--pieces", "p.json", "--count", "16", "--json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto json = nlohmann::json::parse(made.out)["pieces"];
+  EXPECT_EQ(json["count"], 16);
+  EXPECT_EQ(json["layout"], "strips");
+  EXPECT_GT(json["max_px"].get<double>(), 0.25);
+  const ToolResult again = run({"camera", "p.json", "--project", "1,0,0", "--json"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const auto camera = nlohmann::json::parse(again.out);
+  EXPECT_EQ(camera["model"], "pieces");
+  EXPECT_EQ(camera["piece_count"], 16);
+  EXPECT_NEAR(camera["project"][0]["pixel"][0].get<double>(), 240.0, 0.1);
+  const ToolResult within =
+      run({"camera", "cylinder", "--size", "320x200", "--pieces", "q.json", "--tolerance", "0.1", "--json"});
+  ASSERT_EQ(within.exit_code, 0) << within.err;
+  EXPECT_LT(nlohmann::json::parse(within.out)["pieces"]["max_px"].get<double>(), 0.11);
+  expect_refusal({"camera", "p.json", "--size", "10x10"}, 2, {"320 x 200"});
+  expect_refusal({"camera", "cylinder", "--pieces", "p.npy"}, 2, {".json"});
+  expect_refusal({"camera", "cylinder", "--count", "9"}, 2, {"--pieces"});
+  expect_refusal({"camera", "cylinder", "--pieces", "p.json", "--count", "0"}, 2, {"--count"});
+  expect_refusal({"camera", "cylinder", "--pieces", "p.json", "--tolerance", "0"}, 2, {"0.01"});
+  expect_refusal({"camera", "cylinder", "--pieces", "p.json", "--tolerance", "1", "--count", "9"}, 2, {"--count"});
+}
+
 TEST_F(CameraCommand, BrokenRayMapsAreRefused) {
   ASSERT_EQ(run({"camera", "equidistant", "--size", "20x20", "--rays", "rays.npy"}).exit_code, 0);
   const std::string bytes = read_file(file("rays.npy"));

@@ -24,6 +24,11 @@ inline constexpr LensInfo barrelsplit_info = {
     .frame = [](const LensParameters&) -> std::optional<PlaneRectangle> {
       return PlaneRectangle{{-1.5, -1.0}, {1.5, 1.0}};
     },
+    .parts = [](const LensParameters&) -> std::vector<PlanePolygon> {
+      return {{{-1.5, -1.0}, {0.5, -1.0}, {0.5, 0.0}, {-1.5, 0.0}}, {{-1.5, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {-1.5, 1.0}},
+              {{0.5, -1.0}, {1.5, -1.0}, {1.5, -0.5}, {0.5, -0.5}}, {{0.5, -0.5}, {1.5, -0.5}, {1.5, 0.0}, {0.5, 0.0}},
+              {{0.5, 0.0}, {1.5, 0.0}, {1.5, 0.5}, {0.5, 0.5}},     {{0.5, 0.5}, {1.5, 0.5}, {1.5, 1.0}, {0.5, 1.0}}};
+    },
 };
 #endif
 

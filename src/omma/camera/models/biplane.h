@@ -19,6 +19,9 @@ inline constexpr LensInfo biplane_info = {
     .radial = false,
     .parameters = biplane_parameters,
     .max_angle = [](const LensParameters& parameters) { return (0.5 * parameters.k[0] + 89.0) * pi / 180.0; },
+    .parts = [](const LensParameters&) -> std::vector<PlanePolygon> {
+      return {{{-1e6, -1e6}, {0.0, -1e6}, {0.0, 1e6}, {-1e6, 1e6}}, {{0.0, -1e6}, {1e6, -1e6}, {1e6, 1e6}, {0.0, 1e6}}};
+    },
 };
 #endif
 

@@ -21,6 +21,12 @@ inline constexpr LensInfo triplane_info = {
     .radial = false,
     .parameters = triplane_parameters,
     .max_angle = [](const LensParameters& parameters) { return (parameters.k[0] + 89.0) * pi / 180.0; },
+    .parts = [](const LensParameters& parameters) -> std::vector<PlanePolygon> {
+      const double corner = std::tan(parameters.k[0] * pi / 360.0);
+      return {{{-1e6, -1e6}, {-corner, -1e6}, {-corner, 1e6}, {-1e6, 1e6}},
+              {{-corner, -1e6}, {corner, -1e6}, {corner, 1e6}, {-corner, 1e6}},
+              {{corner, -1e6}, {1e6, -1e6}, {1e6, 1e6}, {corner, 1e6}}};
+    },
 };
 #endif
 

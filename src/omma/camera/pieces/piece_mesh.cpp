@@ -14,7 +14,11 @@ namespace {
 
 constexpr double shortest_px = 2.0;  // edges that are shorter are not split
 
+constexpr double thinnest_px = 0.5;  // a triangle's least height
+constexpr double thinnest_ever_px = 0.03;
+
 int64_t cross(const glm::i64vec2& a, const glm::i64vec2& b) { return a.x * b.y - a.y * b.x; }
+int64_t dot(const glm::i64vec2& a) { return a.x * a.x + a.y * a.y; }
 
 double length_on(CornerSurface surface, const glm::dvec3& ray) {
   switch (surface) {
@@ -167,17 +171,17 @@ void PieceMesh::measure_new(std::optional<double> tolerance_px) {
   unmeasured_.clear();
 }
 
-bool PieceMesh::heavier(uint64_t a, uint64_t b) const {
-  const double weight_a = edges_.at(a).weight, weight_b = edges_.at(b).weight;
-  return weight_a > weight_b || (weight_a == weight_b && a > b);
-}
-
-std::optional<uint64_t> PieceMesh::edge_to_split(const Triangle& triangle) const {
+std::optional<uint64_t> PieceMesh::edge_to_split(const Triangle& triangle, By by) const {
   std::optional<uint64_t> best;
+  double most = 0.0;
   for (size_t i = 0; i < 3; ++i) {
     const uint32_t a = triangle.corners[i], b = triangle.corners[(i + 1) % 3];
-    if (length(a, b) < shortest_px) continue;
-    if (!best || heavier(key(a, b), *best)) best = key(a, b);
+    const uint64_t edge = key(a, b);
+    const double edge_length = length(a, b), weight = by == By::weight ? edges_.at(edge).weight : edge_length;
+    if (edge_length < shortest_px) continue;
+    if (best && (weight < most || (weight == most && edge < *best))) continue;
+    best = edge;
+    most = weight;
   }
   return best;
 }
@@ -188,7 +192,7 @@ std::optional<uint32_t> PieceMesh::neighbour_at(uint32_t index, uint64_t edge) c
   return shared.triangles[0] == index ? shared.triangles[1] : shared.triangles[0];
 }
 
-bool PieceMesh::split_edge(uint32_t index, uint64_t edge) {
+bool PieceMesh::split_edge(uint32_t index, uint64_t edge, double least_height_px) {
   const auto a = static_cast<uint32_t>(edge >> 32), b = static_cast<uint32_t>(edge);
   const glm::i64vec2 sum = places_[a] + places_[b], place(sum.x >> 1, sum.y >> 1);
   const std::optional<uint32_t> neighbour = neighbour_at(index, edge);
@@ -198,8 +202,10 @@ bool PieceMesh::split_edge(uint32_t index, uint64_t edge) {
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t from = corners[i], to = corners[(i + 1) % 3];
       if (key(from, to) == edge) continue;
-      // So thin that the grid turns a half of it over.
-      if (cross(places_[to] - places_[from], place - places_[from]) <= 0) return false;
+      // Rays at three places in a line say nothing of what is beside it.
+      const glm::i64vec2 along = places_[to] - places_[from], half = place - places_[from], rest = place - places_[to];
+      const double longest = std::sqrt(static_cast<double>(std::max({dot(along), dot(half), dot(rest)})));
+      if (static_cast<double>(cross(along, half)) < least_height_px * piece_grid * longest) return false;
     }
   }
   const auto middle = static_cast<uint32_t>(places_.size());
@@ -209,27 +215,19 @@ bool PieceMesh::split_edge(uint32_t index, uint64_t edge) {
   return true;
 }
 
-bool PieceMesh::split(uint32_t index) {
+bool PieceMesh::split(uint32_t index, By by) {
   // Each step goes on to a heavier edge, so there is an end.
-  for (uint32_t at = index;;) {
-    if (!triangles_[at].measured) return true;  // made a moment ago; all have their turn when it is measured
-    const auto heaviest = edge_to_split(triangles_[at]);
+  for (;;) {
+    if (!triangles_[index].measured) return true;  // made a moment ago; all have their turn when it is measured
+    const auto heaviest = edge_to_split(triangles_[index], by);
     if (!heaviest) return false;
-    const auto neighbour = neighbour_at(at, *heaviest);
+    const auto neighbour = neighbour_at(index, *heaviest);
     if (neighbour && !triangles_[*neighbour].measured) return true;
-    if (neighbour && edge_to_split(triangles_[*neighbour]) != heaviest) {
-      at = *neighbour;
-      continue;
+    if (!neighbour || edge_to_split(triangles_[*neighbour], by) == heaviest) {
+      return split_edge(index, *heaviest, by == By::weight ? thinnest_px : thinnest_ever_px);
     }
-    if (split_edge(at, *heaviest)) return true;
-    break;
+    index = *neighbour;
   }
-  const auto corners = triangles_[index].corners;
-  for (size_t i = 0; i < 3; ++i) {
-    const uint32_t a = corners[i], b = corners[(i + 1) % 3];
-    if (length(a, b) >= shortest_px && split_edge(index, key(a, b))) return true;
-  }
-  return false;
 }
 
 void PieceMesh::bisect(uint32_t index, uint64_t edge, uint32_t middle) {
@@ -255,7 +253,9 @@ bool PieceMesh::refine(double tolerance_px, size_t most) {
     if (wrong.empty()) return true;
     if (alive_ > most) return false;
     for (const uint32_t index : wrong) {
-      if (triangles_[index].alive && !split(index)) triangles_[index].finished = true;
+      // What is too thin to be split by error is split at its longest edge, which makes nothing thinner.
+      if (triangles_[index].alive && !split(index, By::weight) && !split(index, By::length))
+        triangles_[index].finished = true;
     }
   }
 }
@@ -267,14 +267,14 @@ void PieceMesh::split_to(size_t count) {
     for (const auto& [edge, value] : edges_) longest = std::max(longest, value.weight);
     std::vector<uint32_t> candidates;
     for (uint32_t i = 0; i < triangles_.size(); ++i) {
-      const auto start = triangles_[i].alive ? edge_to_split(triangles_[i]) : std::nullopt;
+      const auto start = triangles_[i].alive ? edge_to_split(triangles_[i], By::weight) : std::nullopt;
       if (!start) continue;
       if (edges_.at(*start).weight > 0.75 * longest) candidates.push_back(i);
     }
     const size_t before = alive_;
     for (const uint32_t index : candidates) {
       if (alive_ >= count) break;
-      if (triangles_[index].alive) split(index);
+      if (triangles_[index].alive) split(index, By::weight);
     }
     if (alive_ == before) return;
   }

@@ -49,6 +49,8 @@ class PieceMesh {
     double weight = 0.0;
   };
 
+  enum class By { weight, length };
+
   static uint64_t key(uint32_t a, uint32_t b) { return a < b ? uint64_t{a} << 32 | b : uint64_t{b} << 32 | a; }
   glm::dvec3 corner_ray(const Triangle& triangle, size_t i) const;
   std::array<glm::dvec2, 3> pixels(const Triangle& triangle) const;
@@ -59,13 +61,13 @@ class PieceMesh {
   void measure(Triangle& triangle, double tolerance_px) const;
   /// Those that are new, by error up to about the tolerance; without one their edges count by length.
   void measure_new(std::optional<double> tolerance_px);
-  bool heavier(uint64_t a, uint64_t b) const;
   /// The heaviest edge; nothing when all are too short.
-  std::optional<uint64_t> edge_to_split(const Triangle& triangle) const;
+  std::optional<uint64_t> edge_to_split(const Triangle& triangle, By by) const;
   std::optional<uint32_t> neighbour_at(uint32_t index, uint64_t edge) const;
   /// Splits the triangle's heaviest edge or, where it is not its neighbour's too, one further on. False when it cannot.
-  bool split(uint32_t index);
-  bool split_edge(uint32_t index, uint64_t edge);
+  bool split(uint32_t index, By by);
+  /// False where that would make a triangle less high.
+  bool split_edge(uint32_t index, uint64_t edge, double least_height_px);
   void bisect(uint32_t index, uint64_t edge, uint32_t middle);
 
   std::span<const ImagePart> parts_;
