@@ -68,6 +68,32 @@ struct Layout {
   std::string name;
 };
 
+// Makes a piece's rays as long as its neighbour's where both see the same along a common edge; false where they do not.
+bool match_lengths(Piece& piece, const Piece& neighbour) {
+  std::vector<double> factors;
+  for (int i = 0; i < piece.corner_count; ++i) {
+    const glm::dvec2& corner = piece.corners[static_cast<size_t>(i)];
+    const auto end = neighbour.corners.begin() + neighbour.corner_count;
+    if (std::find(neighbour.corners.begin(), end, corner) == end) continue;
+    const glm::dvec3 own = glm::inverse(piece.imageFromRay) * glm::dvec3(corner, 1.0);
+    const glm::dvec3 other = glm::inverse(neighbour.imageFromRay) * glm::dvec3(corner, 1.0);
+    if (glm::distance(glm::normalize(own), glm::normalize(other)) > 1e-4) continue;
+    factors.push_back(glm::length(other) / glm::length(own));
+  }
+  if (factors.size() != 2 || std::abs(factors[0] / factors[1] - 1.0) > 1e-4) return false;
+  piece.imageFromRay /= factors[0];
+  return true;
+}
+
+// So that depth goes on from piece to piece wherever the world does.
+void match_lengths(std::vector<Piece>& pieces) {
+  for (size_t i = 1; i < pieces.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      if (match_lengths(pieces[i], pieces[j])) break;
+    }
+  }
+}
+
 // One piece for each part, where that is within the tolerance.
 std::optional<Layout> single_pieces(std::span<const ImagePart> parts, double tolerance_px) {
   Layout layout{{}, "exact"};
@@ -77,6 +103,7 @@ std::optional<Layout> single_pieces(std::span<const ImagePart> parts, double tol
     if (single->error_px > exact_px) layout.name = single->piece.corner_count == 4 ? "quads" : "triangles";
     layout.pieces.push_back(single->piece);
   }
+  match_lengths(layout.pieces);
   return layout;
 }
 
