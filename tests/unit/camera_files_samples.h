@@ -137,6 +137,22 @@ projection_parameters:
  "omni:lensdistortion:ftheta:k0": 0, "omni:lensdistortion:ftheta:k1": 0.00245,
  "omni:lensdistortion:ftheta:k2": 0, "omni:lensdistortion:ftheta:k3": 0, "omni:lensdistortion:ftheta:k4": 0}
 )"},
+      {"usd", R"({"left": {"focalLength": 2, "horizontalAperture": 8, "verticalAperture": 5,
+ "omni:lensdistortion:model": "kannalaBrandtK3", "omni:lensdistortion:kannalaBrandtK3:nominalWidth": 1600.0,
+ "omni:lensdistortion:kannalaBrandtK3:nominalHeight": 1200, "omni:lensdistortion:kannalaBrandtK3:maxFov": 170,
+ "omni:lensdistortion:kannalaBrandtK3:opticalCenter": [801.5, 598.25], "omni:lensdistortion:kannalaBrandtK3:k0": 0.05,
+ "omni:lensdistortion:kannalaBrandtK3:k1": 0.01, "omni:lensdistortion:kannalaBrandtK3:k2": -0.003,
+ "omni:lensdistortion:kannalaBrandtK3:k3": -0.0005},
+ "right": {"focalLength": 1.5, "horizontalAperture": 3.5, "omni:lensdistortion:model": "radTanThinPrism",
+ "omni:lensdistortion:radTanThinPrism:nominalWidth": 1400, "omni:lensdistortion:radTanThinPrism:nominalHeight": 1408,
+ "omni:lensdistortion:radTanThinPrism:maxFov": 150, "omni:lensdistortion:radTanThinPrism:opticalCenter": [714.5, 704],
+ "omni:lensdistortion:radTanThinPrism:k0": 0.4, "omni:lensdistortion:radTanThinPrism:k1": -0.48,
+ "omni:lensdistortion:radTanThinPrism:k2": 0.11, "omni:lensdistortion:radTanThinPrism:k3": 0.09,
+ "omni:lensdistortion:radTanThinPrism:k4": -0.05, "omni:lensdistortion:radTanThinPrism:k5": 0.0073,
+ "omni:lensdistortion:radTanThinPrism:p0": -0.0005, "omni:lensdistortion:radTanThinPrism:p1": 0.0003,
+ "omni:lensdistortion:radTanThinPrism:s0": 0.0006, "omni:lensdistortion:radTanThinPrism:s1": -0.00022,
+ "omni:lensdistortion:radTanThinPrism:s2": 0.0004, "omni:lensdistortion:radTanThinPrism:s3": -0.00014}}
+)"},
       {"woodscape", R"({"intrinsic": {"aspect_ratio": 1.0, "cx_offset": 3.942, "cy_offset": -3.093, "height": 966.0,
  "k1": 339.749, "k2": -31.988, "k3": 48.275, "k4": -7.201, "model": "radial_poly", "poly_order": 4,
  "width": 1280.0}, "name": "FV"}
@@ -178,6 +194,12 @@ projection_parameters:
   <lens><type>custom</type><custom_function><c1>1.05</c1><c2>4</c2><f>1.0</f><fun>tan</fun></custom_function>
     <scale_to_hfov>true</scale_to_hfov><cutoff_angle>1.5707</cutoff_angle></lens>
 </camera></sensor></link></model></sdf>
+)"},
+      {"sdf", R"(<sdf version="1.9"><sensor name="front" type="camera"><camera>
+  <horizontal_fov>1.0471975512</horizontal_fov>
+  <image><width>640</width><height>480</height></image>
+  <distortion><k1>-0.25</k1><k2>0.12</k2><k3>-0.03</k3><p1>0.001</p1><p2>-0.002</p2><center>0.5 0.5</center></distortion>
+</camera></sensor></sdf>
 )"},
       {"pieces", R"({"size":[64,48],"pieces":[
 {"corners":[[0.0,0.0],[32.0,0.0],[32.0,48.0],[0.0,48.0]],"imageFromRay":[[32.0,0.0,-32.0],[0.0,-32.0,-24.0],[0.0,0.0,-1.0]]},

@@ -2,7 +2,11 @@
 //
 // Angles are in radians. The image's half width is the unit of the lens's radius; scale_to_hfov makes horizontal_fov
 // span the width instead. cutoff_angle counts from the axis. <intrinsics> are in pixels from the top left corner.
-// <distortion> is refused: what Gazebo draws with it depends on its version.
+// <distortion> is that of Brown and Conrady, forward on the plane z = 1 as OpenCV's and in gz-rendering's distortion
+// pass; classic Gazebo's legacy mode has the image's width for the focal length and is refused. Both enlarge the
+// picture of a barrel so that no black border shows, which is no part of the calibration. <center>, in units of the
+// image's width and height, is the principal point.
+#include <algorithm>
 #include <cmath>
 
 #include "omma/camera/files/calibration.h"
@@ -43,14 +47,32 @@ std::vector<double> custom_parameters(const DocumentNode& lens) {
           static_cast<double>(found - names.begin())};
 }
 
-void refuse_distortion(const DocumentNode& camera) {
-  const auto distortion = camera.find("distortion");
-  if (!distortion) return;
-  for (const char* key : {"k1", "k2", "k3", "p1", "p2"}) {
-    if (number_or(*distortion, key, 0.0) != 0.0) {
-      distortion->at(key).fail("distortion of SDF cameras is not supported; 0 is accepted");
+// Turns a perspective calibration into a distorted one.
+void distort(const DocumentNode& distortion, bool has_intrinsics, Calibration& calibration) {
+  const std::vector<double> coefficients = members_or_zero(distortion, {"k1", "k2", "p1", "p2", "k3"});
+  if (std::ranges::all_of(coefficients, [](double k) { return k == 0.0; })) return;
+  for (const char* key : {"ignition:legacy_mode", "gz:legacy_mode"}) {
+    const auto legacy = distortion.find(key);
+    if (legacy && legacy->boolean()) {
+      legacy->fail("the distortion of classic Gazebo's legacy mode is not supported; false is accepted");
     }
   }
+  if (std::string_view(calibration.model) != "perspective") {
+    distortion.fail("stands beside a <lens> that is not gnomonical; a pinhole camera's distortion is accepted");
+  }
+  if (const auto given = distortion.find("center")) {
+    const std::vector<double> of_image = given->numbers(2);
+    const glm::dvec2 centre(of_image[0] * calibration.size.width, of_image[1] * calibration.size.height);
+    // Half a pixel both ways is the difference between counting from the first pixel's corner and from its centre.
+    constexpr double same_point = 0.75;
+    if (has_intrinsics && glm::distance(centre, calibration.centre) > same_point) {
+      given->fail("is {}, {} in pixels, and <intrinsics> have {}, {}; the two have to be one point", centre.x, centre.y,
+                  calibration.centre.x, calibration.centre.y);
+    }
+    if (!has_intrinsics) calibration.centre = centre;
+  }
+  calibration.model = "opencv";
+  calibration.parameters = coefficients;
 }
 
 // The radius on the model's plane at half the horizontal field of view.
@@ -68,7 +90,6 @@ double radius_at(const DocumentNode& fov, const Calibration& calibration) {
 }
 
 Camera read_camera(const DocumentNode& camera) {
-  refuse_distortion(camera);
   const DocumentNode image = camera.at("image");
   Calibration calibration{
       .model = "perspective", .size = image_size(image.at("width"), image.at("height")), .parameters = {}};
@@ -80,6 +101,7 @@ Camera read_camera(const DocumentNode& camera) {
     }
     calibration.focal = {intrinsics->at("fx").number(), intrinsics->at("fy").number()};
     calibration.centre = {intrinsics->at("cx").number(), intrinsics->at("cy").number()};
+    if (const auto distortion = camera.find("distortion")) distort(*distortion, true, calibration);
     return to_camera(intrinsics->place(), calibration);
   }
   bool scale_to_fov = true;
@@ -104,6 +126,7 @@ Camera read_camera(const DocumentNode& camera) {
   const double half_width = 0.5 * calibration.size.width;
   calibration.focal =
       glm::dvec2(scale_to_fov ? half_width / radius_at(camera.at("horizontal_fov"), calibration) : half_width * focal);
+  if (const auto distortion = camera.find("distortion")) distort(*distortion, false, calibration);
   return to_camera(camera.place(), calibration);
 }
 
@@ -132,8 +155,12 @@ const CameraFormat sdf_format = {
     .name = "sdf",
     .what = "SDFormat, Gazebo (XML)",
     .recognised = "`<sdf>`, `<sensor>` or `<camera>` at the top",
-    .models = "pinhole; `<lens>`: gnomonical, stereographic, equidistant, equisolid_angle, orthographic, custom",
-    .convention = "radians; radius in half widths, or horizontal_fov across the width; cutoff_angle from the axis",
+    .models =
+        "pinhole with `<distortion>` (k1, k2, k3, p1, p2) or without; `<lens>`: gnomonical, stereographic, "
+        "equidistant, equisolid_angle, orthographic, custom",
+    .convention =
+        "radians; radius in half widths, or horizontal_fov across the width; cutoff_angle from the axis; "
+        "distortion as OpenCV's, its center in units of the image's size",
     .recognises = recognises,
     .read = read,
 };
