@@ -164,6 +164,8 @@ void run_table(nlohmann::json& all, const Options& options, Renderer& renderer, 
     for (const char* variant : {"compute", "feedback", "tessellator"}) {
       configurations.push_back(piecewise(deformed, variant, {}));
     }
+    configurations.push_back(piecewise(deformed, "compute", {.tolerance_px = 0.5}));
+    configurations.back().label += ", tolerance 0.5 px";
     run(fmt::format("camera texture of {} x {}", texels.width, texels.height), configurations);
   }
 }

@@ -90,7 +90,13 @@ TEST_F(RendererTest, SeveralLiveAndDieSideBySide) {
 TEST_F(RendererTest, ANewRayMapIsNotTakenForAnOldOne) {
   // The next map likely lies where the last one lay.
   const auto straight_ahead = [](bool ahead) {
-    return Camera(RayMap{.size = {8, 8}, .directions = std::vector(64, glm::vec3(0, 0, ahead ? -1 : 1)), .source = {}});
+    RayMap map{.size = {8, 8}, .directions = {}, .source = {}};
+    for (int i = 0; i < 64; ++i) {
+      // Around the axis, which pixel (4, 4) has.
+      const glm::dvec3 direction(0.001 * (i % 8 - 4), -0.001 * (i / 8 - 4), -1.0);
+      map.directions.emplace_back(glm::normalize(ahead ? direction : -direction));
+    }
+    return Camera(std::move(map));
   };
   for (int i = 0; i < 6; ++i) {
     const bool ahead = i % 2 == 0;

@@ -35,8 +35,9 @@ class ShadingTest : public GpuTest, public ::testing::WithParamInterface<std::st
 
   static std::map<Channel, Image> look(const Scene& scene, const Camera& camera, int samples = 4) {
     renderer().load(scene);
-    return draw(camera, glm::dmat4(1.0), {Channel::color, Channel::id, Channel::object, Channel::normal},
-                {.technique = GetParam(), .samples = samples, .background = backdrop});
+    return draw(
+        camera, glm::dmat4(1.0), {Channel::color, Channel::id, Channel::object, Channel::normal},
+        {.technique = GetParam(), .samples = samples, .pieces = {.tolerance_px = 0.02}, .background = backdrop});
   }
 
   static void expect_color(const std::map<Channel, Image>& pictures, int x, int y, const glm::dvec3& expected,

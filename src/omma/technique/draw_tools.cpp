@@ -35,4 +35,15 @@ void DrawTools::draw_background(const View& view) {
   glDisable(GL_DEPTH_TEST);
 }
 
+void DrawTools::draw_piece_borders(const View& view, const Camera& camera) {
+  View of_pieces{.camera = camera, .worldFromCamera = view.worldFromCamera, .tile = view.tile};
+  of_pieces.shift = view.shift;
+  camera_textures.bind(camera);
+  const gl::Program& program = programs.get(
+      {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "technique/piecewise/show_pieces.frag"}},
+      camera_defines(camera));
+  set_camera(program, of_pieces);
+  draw_fullscreen(program);
+}
+
 }  // namespace omma

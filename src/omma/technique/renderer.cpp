@@ -74,7 +74,10 @@ void paste(const Image& tile, const PixelRect& place, Image& whole) {
 }  // namespace
 
 const std::vector<ShowInfo>& shows() {
-  static const std::vector<ShowInfo> infos{{Show::edges, "edges", "the edges of all triangles, thick and white"}};
+  static const std::vector<ShowInfo> infos{
+      {Show::edges, "edges", "the edges of all triangles, thick and white"},
+      {Show::pieces, "pieces", "the borders of the pieces that piecewise draws, thin and black"},
+  };
   return infos;
 }
 
@@ -116,12 +119,14 @@ struct Renderer::Parts {
     return target;
   }
 
-  Image draw_color(Technique& technique, View view, const Passes& passes, std::span<const Effect> effects);
+  Image draw_color(Technique& technique, View view, const Passes& passes, std::span<const Effect> effects,
+                   bool show_pieces);
+  void draw_piece_borders(const Technique& technique, const View& view, const Target& picture);
   void draw_channels(Technique& technique, View view, std::map<Channel, Image>& pictures);
 };
 
 Image Renderer::Parts::draw_color(Technique& technique, View view, const Passes& passes,
-                                  std::span<const Effect> effects) {
+                                  std::span<const Effect> effects, bool show_pieces) {
   static constexpr Channel outputs[] = {Channel::color};
   view.outputs = outputs;
   view.effects = effects;
@@ -129,6 +134,7 @@ Image Renderer::Parts::draw_color(Technique& technique, View view, const Passes&
   const Target& picture = target_for(view.size(), outputs);
   if (passes.shifts.size() == 1) {
     technique.draw(view, picture);
+    if (show_pieces) draw_piece_borders(technique, view, picture);
     tools->timer.mark("read back");
     return read_back(picture.image(Channel::color), Channel::color, view.size());
   }
@@ -143,6 +149,7 @@ Image Renderer::Parts::draw_color(Technique& technique, View view, const Passes&
   for (const glm::dvec2& shift : passes.shifts) {
     view.shift = shift;
     technique.draw(view, picture);
+    if (show_pieces) draw_piece_borders(technique, view, picture);
     tools->timer.mark("accumulate");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     glBindSampler(0, 0);
@@ -155,6 +162,16 @@ Image Renderer::Parts::draw_color(Technique& technique, View view, const Passes&
   }
   tools->timer.mark("read back");
   return read_back(total, Channel::color, view.size());
+}
+
+void Renderer::Parts::draw_piece_borders(const Technique& technique, const View& view, const Target& picture) {
+  const Camera* pieces = view.camera.pieces() != nullptr ? &view.camera : technique.pieces();
+  if (pieces == nullptr) {
+    throw CommandError("there are no pieces to show: technique piecewise draws them, or a camera in the pieces form");
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
+  glViewport(0, 0, view.size().width, view.size().height);
+  tools->draw_piece_borders(view, *pieces);
 }
 
 void Renderer::Parts::draw_channels(Technique& technique, View view, std::map<Channel, Image>& pictures) {
@@ -230,7 +247,8 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
     view.face_size = options.face_size;
     view.pieces = options.pieces;
     if (pictures.contains(Channel::color)) {
-      paste(parts.draw_color(technique, view, passes, effects), tile, pictures.at(Channel::color));
+      paste(parts.draw_color(technique, view, passes, effects, options.show.contains(Show::pieces)), tile,
+            pictures.at(Channel::color));
     }
     parts.draw_channels(technique, view, pictures);
   }

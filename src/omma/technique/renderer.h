@@ -22,7 +22,7 @@ namespace omma {
 enum class Filter { trilinear, anisotropic };
 
 /// What is drawn over a picture to show how it is made.
-enum class Show { edges };
+enum class Show { edges, pieces };
 
 struct ShowInfo {
   Show show;

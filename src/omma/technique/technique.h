@@ -35,6 +35,9 @@ struct DrawTools {
   /// What the camera sees where the scene is not, and depth that keeps triangles off pixels without a ray.
   void draw_background(const View& view);
 
+  /// The borders of the pieces of `camera`, over the bound target of the view's size.
+  void draw_piece_borders(const View& view, const Camera& camera);
+
   Target multisample_target{};
 };
 
@@ -51,6 +54,9 @@ class Technique {
 
   /// The scene has changed: what was derived from it must be derived again.
   virtual void scene_changed() {}
+
+  /// What the last picture was made of, as a camera in the pieces form; null where there are no pieces.
+  virtual const Camera* pieces() const { return nullptr; }
 
   /// Adds what only this technique knows of its last picture.
   virtual void report(RenderStats&) const {}

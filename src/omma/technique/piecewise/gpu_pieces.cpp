@@ -155,8 +155,11 @@ std::vector<glm::ivec2> places_of_samples(int samples) {
   static constexpr Channel channels[] = {Channel::color};
   const Target target(ImageSize{1, 1}, channels, samples);
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  // A driver may have more samples than it was asked for.
+  GLint given = 0;
+  glGetIntegerv(GL_SAMPLES, &given);
   std::vector<glm::ivec2> places;
-  for (int s = 0; s < samples; ++s) {
+  for (int s = 0; s < given; ++s) {
     glm::vec2 place;
     glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(s), &place.x);
     places.emplace_back(glm::round(place * float(piece_grid)));
@@ -166,13 +169,14 @@ std::vector<glm::ivec2> places_of_samples(int samples) {
 
 }  // namespace
 
-void GpuPieces::set(std::shared_ptr<const PieceSet> pieces, const View& view) {
+void GpuPieces::set(const Camera& pieces, const View& view) {
   if (samples_ != view.samples) {
     samples_ = view.samples;
     sample_places_ = places_of_samples(view.samples);
   }
-  if (set_ == pieces && tile_ == view.tile && shift_ == view.shift) return;
-  set_ = std::move(pieces);
+  if (camera_ == pieces && tile_ == view.tile && shift_ == view.shift) return;
+  camera_ = pieces;
+  set_ = camera_->pieces();
   tile_ = view.tile;
   shift_ = view.shift;
 
@@ -239,7 +243,7 @@ void GpuPieces::bind() const {
 }
 
 gl::Defines GpuPieces::defines() const {
-  gl::Defines defines{{"PIECES", "1"}, {"SAMPLES", std::to_string(samples_)}};
+  gl::Defines defines{{"PIECES", "1"}, {"SAMPLES", std::to_string(sample_places_.size())}};
   if (overlapping_) defines["OVERLAPPING_PIECES"] = "1";
   return defines;
 }

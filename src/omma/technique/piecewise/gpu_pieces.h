@@ -3,10 +3,10 @@
 
 #include <array>
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
 #include <vector>
 
+#include "omma/camera/camera.h"
 #include "omma/camera/pieces/piece_set.h"
 #include "omma/gl/context.h"
 #include "omma/gl/objects.h"
@@ -18,8 +18,8 @@ namespace omma {
 
 class GpuPieces {
  public:
-  /// Takes the pieces that reach into the view's tile, as the view's pass samples it.
-  void set(std::shared_ptr<const PieceSet> pieces, const View& view);
+  /// Takes those of a camera in the pieces form that reach into the view's tile, as the view's pass samples it.
+  void set(const Camera& pieces, const View& view);
 
   /// Texture units 16 to 18, 10 and 11.
   void bind() const;
@@ -43,7 +43,8 @@ class GpuPieces {
  private:
   void fill_bins(const std::vector<uint32_t>& order);
 
-  std::shared_ptr<const PieceSet> set_;
+  std::optional<Camera> camera_;  ///< kept alive: another one may not come to lie at its address
+  const PieceSet* set_ = nullptr;
   PixelRect tile_;
   glm::dvec2 shift_{0.0};
   int samples_ = 0;

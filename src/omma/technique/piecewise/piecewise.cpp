@@ -33,7 +33,7 @@ class Piecewise : public Technique {
   void draw(const View& view, const Target& target) override {
     tools_.timer.mark("pieces");
     choose_pieces(view);
-    pieces_.set(set_, view);
+    pieces_.set(*pieces_camera_, view);
     tools_.multisampled(view, target, [&](const Target& image) {
       image.begin();
       tools_.timer.mark("background");
@@ -43,8 +43,10 @@ class Piecewise : public Technique {
     });
   }
 
+  const Camera* pieces() const override { return pieces_camera_ ? &*pieces_camera_ : nullptr; }
+
   void report(RenderStats& stats) const override {
-    stats.pieces = set_->pieces().size();
+    stats.pieces = pieces_camera_->pieces()->pieces().size();
     stats.piece_error_px = error_.max_px;
   }
 
@@ -52,7 +54,7 @@ class Piecewise : public Technique {
   void choose_pieces(const View& view) {
     if (camera_ == view.camera && options_ == view.pieces) return;
     Approximation approximation = approximate(view.camera, view.pieces);
-    set_ = std::make_shared<const PieceSet>(std::move(approximation.pieces));
+    pieces_camera_.emplace(std::move(approximation.pieces));
     error_ = approximation.error;
     camera_ = view.camera;
     options_ = view.pieces;
@@ -61,9 +63,9 @@ class Piecewise : public Technique {
   DrawTools& tools_;
   std::unique_ptr<PieceDrawer> drawer_;
   GpuPieces pieces_;
-  std::shared_ptr<const PieceSet> set_;
   PieceError error_;
-  std::optional<Camera> camera_;  ///< that set_ stands for
+  std::optional<Camera> camera_;         ///< that was asked for
+  std::optional<Camera> pieces_camera_;  ///< that stands for it
   PieceOptions options_;
 };
 
