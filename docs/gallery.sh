@@ -46,6 +46,28 @@ effect contours:interval_m=40,color=a04020 terrain panini:fov_deg=140
 effect checker:size_m=2 city equidistant:fov_deg=180,fit=diagonal
 effect brick:length_m=1,height_m=0.4,mortar_m=0.06 city cylinder:fov_deg=200
 
+# Pieces and triangles, for docs/pieces.md; the camera texture's offsets are made here.
+./dev render city --camera cylinder:fov_deg=360 --pieces 32 --technique piecewise --show edges --show pieces \
+  --size 720x540 --samples 16 -o docs/images/pieces_cylinder.png
+python3 - <<'END'
+import math
+import struct
+
+rows = []
+for y in reversed(range(64)):  # PFM begins at the bottom
+    for x in range(64):
+        u, v = (x + 0.5) / 64, (y + 0.5) / 64
+        fade = 0.8 * u * (1 - u) * v * (1 - v)
+        rows.append((fade * math.sin(7 * v + 2 * u), fade * math.sin(6 * u - v), 0.0))
+
+with open("build/gallery_offsets.pfm", "wb") as file:
+    file.write(b"PF\n64 64\n-1.0\n")
+    for row in rows:
+        file.write(struct.pack("<3f", *row))
+END
+./dev render city --camera camera_texture:file=build/gallery_offsets.pfm,base=perspective,fov_deg=90 \
+  --technique piecewise --show edges --show pieces --size 720x540 --samples 16 -o docs/images/pieces_texture.png
+
 # A lens's rays as an array take the place of a measured camera's.
 ./dev camera stereographic:fov_deg=220,fit=diagonal --size 480x480 --rays build/gallery_rays.npy
 picture ray_map build/gallery_rays.npy

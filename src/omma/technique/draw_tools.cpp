@@ -20,6 +20,7 @@ void DrawTools::multisampled(const View& view, const Target& target, const std::
 void DrawTools::draw_background(const View& view) {
   scene.bind();
   camera_textures.bind(view.camera);
+  if (view.camera.pieces() != nullptr) return draw_background_in_pieces(view);
   gl::Defines defines = camera_defines(view.camera);
   if (!view.labels()) defines["OUTPUT_COLOR"] = "0";
   const gl::Program& program = programs.get(
@@ -33,6 +34,21 @@ void DrawTools::draw_background(const View& view) {
   draw_fullscreen(program);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_DEPTH_TEST);
+}
+
+void DrawTools::draw_background_in_pieces(const View& view) {
+  if (view.labels()) return;
+  const GLfloat black[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+  glClearBufferfv(GL_COLOR, 0, black);
+  const gl::Program& program = programs.get(
+      {{GL_VERTEX_SHADER, "technique/piecewise/sky.vert"}, {GL_FRAGMENT_SHADER, "technique/piecewise/sky.frag"}}, {});
+  const auto count = GLsizei(view.camera.pieces()->pieces().size());
+  program.use();
+  program.set("pixel_offset", view.pixel_offset());
+  program.set("tile_size", glm::vec2(view.size().width, view.size().height));
+  program.set("piece_count", int(count));
+  glBindVertexArray(no_vertices.id());
+  glDrawArraysInstanced(GL_TRIANGLE_FAN, 0, 4, count);
 }
 
 void DrawTools::draw_piece_borders(const View& view, const Camera& camera) {

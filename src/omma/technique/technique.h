@@ -39,6 +39,10 @@ struct DrawTools {
   void draw_piece_borders(const View& view, const Camera& camera);
 
   Target multisample_target{};
+
+ private:
+  /// Pieces know their rays: cheaper than to look for each pixel's piece.
+  void draw_background_in_pieces(const View& view);
 };
 
 class Technique {

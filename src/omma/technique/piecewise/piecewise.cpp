@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
+#include <memory>
+#include <vector>
 
 #include "omma/camera/pieces/approximate.h"
 #include "omma/technique/piecewise/piece_drawer.h"
@@ -32,8 +33,8 @@ class Piecewise : public Technique {
 
   void draw(const View& view, const Target& target) override {
     tools_.timer.mark("pieces");
-    choose_pieces(view);
-    pieces_.set(*pieces_camera_, view);
+    last_ = &approximated(view);
+    pieces_.set(last_->pieces, view);
     tools_.multisampled(view, target, [&](const Target& image) {
       image.begin();
       tools_.timer.mark("background");
@@ -43,30 +44,41 @@ class Piecewise : public Technique {
     });
   }
 
-  const Camera* pieces() const override { return pieces_camera_ ? &*pieces_camera_ : nullptr; }
+  const Camera* pieces() const override { return last_ ? &last_->pieces : nullptr; }
 
   void report(RenderStats& stats) const override {
-    stats.pieces = pieces_camera_->pieces()->pieces().size();
-    stats.piece_error_px = error_.max_px;
+    stats.pieces = last_->pieces.pieces()->pieces().size();
+    stats.piece_error_px = last_->error.max_px;
   }
 
  private:
-  void choose_pieces(const View& view) {
-    if (camera_ == view.camera && options_ == view.pieces) return;
+  /// A camera, and the pieces that stand for it.
+  struct Approximated {
+    Camera camera;
+    PieceOptions options;
+    Camera pieces;
+    PieceError error;
+  };
+
+  /// Choosing pieces takes longer than a frame, and people go to and fro between a few cameras.
+  const Approximated& approximated(const View& view) {
+    constexpr size_t kept = 8;
+    const auto found = std::find_if(approximated_.begin(), approximated_.end(), [&](const auto& entry) {
+      return entry->camera == view.camera && entry->options == view.pieces;
+    });
+    if (found != approximated_.end()) return **found;
     Approximation approximation = approximate(view.camera, view.pieces);
-    pieces_camera_.emplace(std::move(approximation.pieces));
-    error_ = approximation.error;
-    camera_ = view.camera;
-    options_ = view.pieces;
+    if (approximated_.size() == kept) approximated_.erase(approximated_.begin());
+    approximated_.push_back(std::make_unique<Approximated>(
+        Approximated{view.camera, view.pieces, Camera(std::move(approximation.pieces)), approximation.error}));
+    return *approximated_.back();
   }
 
   DrawTools& tools_;
   std::unique_ptr<PieceDrawer> drawer_;
   GpuPieces pieces_;
-  PieceError error_;
-  std::optional<Camera> camera_;         ///< that was asked for
-  std::optional<Camera> pieces_camera_;  ///< that stands for it
-  PieceOptions options_;
+  std::vector<std::unique_ptr<Approximated>> approximated_;  ///< the oldest first
+  const Approximated* last_ = nullptr;
 };
 
 std::vector<VariantInfo> variant_infos() {
