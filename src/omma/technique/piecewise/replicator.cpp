@@ -51,9 +51,9 @@ void Replicator::replicate(const GpuPieces& pieces, const SceneClusters& cluster
     slots += level_size;
   }
   reserve(counts_, slots * sizeof(uint32_t));
-  reserve(first_pieces_, level_sizes_.front() * sizeof(uint32_t));
+  reserve(found_pieces_, level_sizes_.front() * sizeof(glm::uvec4));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, counts_.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, first_pieces_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, found_pieces_.id());
   tools_.scene.bind();
   clusters.bind();
   pieces.bind();

@@ -29,7 +29,7 @@ class Replicator {
 
   uint32_t replica_count() const { return replica_count_; }
   size_t bytes() const {
-    return counts_.bytes() + first_pieces_.bytes() + replicas_.bytes() + ranges_.bytes() + commands_.bytes();
+    return counts_.bytes() + found_pieces_.bytes() + replicas_.bytes() + ranges_.bytes() + commands_.bytes();
   }
 
  private:
@@ -41,7 +41,7 @@ class Replicator {
   DrawTools& tools_;
   std::vector<uint32_t> level_first_, level_sizes_;
   gl::Texels replicas_{GL_RG32UI}, items_{GL_R32UI};
-  gl::Buffer counts_, first_pieces_, ranges_, commands_;
+  gl::Buffer counts_, found_pieces_, ranges_, commands_;
   uint32_t replica_count_ = 0;
 };
 
