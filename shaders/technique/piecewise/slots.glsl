@@ -5,18 +5,8 @@
 layout(binding = 20) uniform usamplerBuffer item_texels;
 uniform uint item_count;
 #else
-// Up to 64 triangles of a part, tested as one before each for itself.
-struct ClusterRecord {
-  vec4 sphere;       // centre and radius, object frame
-  uint part, first, count;
-};
-layout(binding = 20) uniform usamplerBuffer cluster_texels;
-uniform uint cluster_count;
-
-ClusterRecord cluster_of(uint number) {
-  uvec4 triangles = texelFetch(cluster_texels, 2 * int(number) + 1);
-  return ClusterRecord(uintBitsToFloat(texelFetch(cluster_texels, 2 * int(number))), triangles.x, triangles.y, triangles.z);
-}
+#include "technique/piecewise/clusters.glsl"
+layout(binding = 25) uniform usamplerBuffer range_texels;  // the nodes that a cluster reaches: first, end
 #endif
 
 // The item of a slot and the nodes that it can reach. False where there is none, or none is reached.
@@ -29,17 +19,13 @@ bool find_item(uint slot, out uint item, out int node, out int end) {
 #else
   item = 0u;
   if (slot >= 64u * cluster_count) return false;
+  uvec2 range = texelFetch(range_texels, int(slot >> 6)).xy;
+  if (range.x >= range.y) return false;
+  node = int(range.x);
+  end = int(range.y);
   ClusterRecord cluster = cluster_of(slot >> 6);
-  uint triangle = slot & 63u;
-  item = item_of(cluster.part, cluster.first + triangle);
-  InstanceRecord instance = instance_of(part_of(cluster.part).instance);
-  vec3 centre = to_camera(instance, cluster.sphere.xyz);
-  // No direction is stretched more than all three together.
-  vec3 r0 = instance.cameraFromObject[0].xyz, r1 = instance.cameraFromObject[1].xyz, r2 = instance.cameraFromObject[2].xyz;
-  float radius = cluster.sphere.w * sqrt(dot(r0, r0) + dot(r1, r1) + dot(r2, r2));
-  float sine2 = radius * radius / dot(centre, centre);
-  if (sine2 < 1.0) narrow(normalize(centre), sqrt(1.0 - sine2), sqrt(sine2), node, end);
-  return triangle < cluster.count && node < end;
+  item = item_of(cluster.part, cluster.first + (slot & 63u));
+  return (slot & 63u) < cluster.count;
 #endif
 }
 

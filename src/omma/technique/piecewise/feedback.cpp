@@ -22,13 +22,13 @@ class FeedbackDrawer : public PieceDrawer {
 
  private:
   void draw_solid(const View& view, const GpuPieces& pieces) {
+    clusters_.narrow(tools_, pieces);
     lists_.update(pieces, clusters_);
     tools_.timer.mark("draw");
     const PieceClipping clipping;
     const SurfaceState state(tools_, false);
     pieces.bind();
     clusters_.bind();
-    clusters_.bind_clusters();
     lists_.bind();
     MeshPass pass = replica_pass(pieces, {{GL_VERTEX_SHADER, "technique/piecewise/feedback_draw.vert"},
                                           {GL_GEOMETRY_SHADER, "technique/piecewise/expand.geom"}});

@@ -83,7 +83,6 @@ bool FeedbackLists::count_pieces(const GpuPieces& pieces, const SceneClusters& c
   tools_.scene.bind();
   pieces.bind();
   clusters.bind();
-  clusters.bind_clusters();
   const uint32_t none = 0;
   limited_.write(std::span<const uint32_t>(&none, 1));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, limited_.id());

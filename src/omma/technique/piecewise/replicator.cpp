@@ -3,22 +3,12 @@
 #include <algorithm>
 
 #include "omma/base/error.h"
+#include "omma/technique/piecewise/dispatch.h"
 
 namespace omma {
 namespace {
 
-constexpr uint32_t group_size = 64;       ///< of every compute shader here
-constexpr uint32_t groups_a_row = 32768;  ///< drivers take 65535 at least
-constexpr size_t max_levels = 7;          ///< as in shaders/technique/piecewise/offsets.glsl
-
-uint32_t divided_up(uint32_t value, uint32_t by) { return (value + by - 1) / by; }
-
-void dispatch(uint32_t groups) {
-  if (groups == 0) return;
-  glDispatchCompute(std::min(groups, groups_a_row), divided_up(groups, groups_a_row), 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                  GL_TEXTURE_FETCH_BARRIER_BIT);
-}
+constexpr size_t max_levels = 7;  ///< as in shaders/technique/piecewise/offsets.glsl
 
 /// Grows by half as much again as is needed, so that a moving camera does not make a new one every frame.
 void reserve(gl::Buffer& buffer, size_t bytes) {
@@ -27,8 +17,8 @@ void reserve(gl::Buffer& buffer, size_t bytes) {
 
 }  // namespace
 
-void Replicator::replicate_clusters(const GpuPieces& pieces, const SceneClusters& clusters, uint32_t cluster_count) {
-  clusters.bind_clusters();
+void Replicator::replicate_clusters(const GpuPieces& pieces, SceneClusters& clusters, uint32_t cluster_count) {
+  clusters.narrow(tools_, pieces);
   replicate(pieces, clusters, cluster_count, {}, "cluster_count", cluster_count);
 }
 

@@ -16,7 +16,7 @@ class Replicator {
   explicit Replicator(DrawTools& tools) : tools_(tools) {}
 
   /// Of the first `cluster_count` clusters; a slot is cluster_triangles times a cluster's number, plus a triangle's.
-  void replicate_clusters(const GpuPieces& pieces, const SceneClusters& clusters, uint32_t cluster_count);
+  void replicate_clusters(const GpuPieces& pieces, SceneClusters& clusters, uint32_t cluster_count);
   /// Of a list of items (part << 10 | triangle); a slot is a place in the list.
   void replicate_items(const GpuPieces& pieces, const SceneClusters& clusters, std::span<const uint32_t> items);
 

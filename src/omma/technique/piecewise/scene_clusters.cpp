@@ -4,6 +4,8 @@
 #include <map>
 #include <tuple>
 
+#include "omma/technique/piecewise/dispatch.h"
+
 namespace omma {
 namespace {
 
@@ -88,6 +90,20 @@ void SceneClusters::bind() const {
   parts_.bind(19);
 }
 
-void SceneClusters::bind_clusters() const { clusters_.bind(20); }
+void SceneClusters::narrow(DrawTools& tools, const GpuPieces& pieces) {
+  tools.timer.mark("clusters");
+  ranges_.reserve(cluster_count_ * sizeof(glm::uvec2));
+  const gl::Program& program = tools.programs.get({{GL_COMPUTE_SHADER, "technique/piecewise/narrow.comp"}}, {});
+  program.use();
+  pieces.set_uniforms(program);
+  program.set("cluster_count", unsigned(cluster_count_));
+  scene_.bind();
+  pieces.bind();
+  bind();
+  clusters_.bind(20);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, ranges_.buffer().id());
+  dispatch(divided_up(cluster_count_, group_size));
+  ranges_.bind(25);
+}
 
 }  // namespace omma

@@ -6,6 +6,8 @@
 
 #include "omma/gl/objects.h"
 #include "omma/technique/gpu_scene.h"
+#include "omma/technique/piecewise/gpu_pieces.h"
+#include "omma/technique/technique.h"
 
 namespace omma {
 
@@ -27,21 +29,22 @@ class SceneClusters {
 
   /// The vertices and, at unit 19, the parts as buffer textures.
   void bind() const;
-  /// Texture unit 20.
-  void bind_clusters() const;
+  /// Finds the part of the tree of pieces that each cluster can reach, and binds clusters and ranges to units 20
+  /// and 25.
+  void narrow(DrawTools& tools, const GpuPieces& pieces);
 
   /// Blended ones last.
   const std::vector<ClusterGroup>& groups() const { return groups_; }
   uint32_t cluster_count() const { return cluster_count_; }
   uint32_t solid_cluster_count() const { return solid_cluster_count_; }
-  size_t bytes() const { return parts_.bytes() + clusters_.bytes(); }
+  size_t bytes() const { return parts_.bytes() + clusters_.bytes() + ranges_.bytes(); }
 
  private:
   const GpuScene& scene_;
   std::vector<std::vector<glm::vec4>> spheres_;  ///< of each mesh's clusters, object frame
   std::vector<ClusterGroup> groups_;
   uint32_t cluster_count_ = 0, solid_cluster_count_ = 0;
-  gl::Texels parts_{GL_RGBA32UI}, clusters_{GL_RGBA32UI};
+  gl::Texels parts_{GL_RGBA32UI}, clusters_{GL_RGBA32UI}, ranges_{GL_RG32UI};
 };
 
 }  // namespace omma

@@ -30,13 +30,13 @@ class TessellatorDrawer : public PieceDrawer {
 
  private:
   void draw_solid(const View& view, const GpuPieces& pieces) {
+    clusters_.narrow(tools_, pieces);
     tools_.timer.mark("draw");
     const PieceClipping clipping;
     const SurfaceState state(tools_, false);
     glBindVertexArray(tools_.no_vertices.id());
     pieces.bind();
     clusters_.bind();
-    clusters_.bind_clusters();
     MeshPass pass = replica_pass(pieces, {{GL_VERTEX_SHADER, "technique/piecewise/tessellate.vert"},
                                           {GL_TESS_CONTROL_SHADER, "technique/piecewise/tessellate.tesc"},
                                           {GL_TESS_EVALUATION_SHADER, "technique/piecewise/tessellate.tese"},
