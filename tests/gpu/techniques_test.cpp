@@ -57,8 +57,8 @@ TEST_P(TechniquesTest, DrawsRealScenesAsRaycastDoes) {
   RecordProperty("least_psnr_db", fmt::format("{:.1f}", least_psnr));
   // Observed on llvmpipe: planar 0.05% and 35.9 dB (both have four samples a pixel, elsewhere); image-based 13.2%
   // (thin columns, fewer texels than pixels at the corners of a flat picture; 12% else) and 28.3 dB; vertex 75% and
-  // 10.7 dB (it leaves out the ground under the camera, and whatever crosses a seam); piecewise 5.9% (`temple` through a
-  // strong distortion, whose columns are pixels apart: edges lie up to a quarter of a pixel off) and 29.0 dB.
+  // 10.7 dB (it leaves out the ground under the camera, and whatever crosses a seam); piecewise 5.9% (`temple` through
+  // a strong distortion, whose columns are pixels apart: edges lie up to a quarter of a pixel off) and 29.0 dB.
   const std::string technique = info_of(GetParam()).name;
   const bool exact = info_of(GetParam()).exact;
   EXPECT_LT(worst_share, exact ? 0.001 : technique == "vertex" ? 0.8 : technique == "piecewise" ? 0.08 : 0.15);

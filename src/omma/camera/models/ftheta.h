@@ -1,7 +1,7 @@
 // NVIDIA's f-theta: a polynomial either from the angle to the distance in pixels or from the distance to the angle
 // (`reference` says which; the other direction is its exact inverse), then a linear term. The coefficients are for
-// pixels, to be taken with f=1. It holds as far as the polynomial rises; NVIDIA's maximum angle is max_angle_deg, and its
-// principal point counts from the centre of the first pixel: cx and cy need 0.5 added.
+// pixels, to be taken with f=1. It holds as far as the polynomial rises; NVIDIA's maximum angle is max_angle_deg, and
+// its principal point counts from the centre of the first pixel: cx and cy need 0.5 added.
 #ifdef __cplusplus
 inline constexpr LensParameterInfo ftheta_parameters[] = {
     {"k1", 1, -1e9, 1e9, "coefficient of the angle (radians) or distance (pixels), positive"},
