@@ -4,80 +4,16 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
-#include <optional>
-#include <set>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "omma/camera/camera.h"
-#include "omma/camera/pieces/approximate.h"
 #include "omma/image/image.h"
 #include "omma/scene/scene.h"
-#include "omma/shading/effects.h"
+#include "omma/technique/picture.h"
 
 namespace omma {
-
-enum class Filter { trilinear, anisotropic };
-
-/// What is drawn over a picture to show how it is made.
-enum class Show { edges, pieces };
-
-struct ShowInfo {
-  Show show;
-  const char* name;
-  const char* description;
-};
-
-/// Everything that can be shown.
-const std::vector<ShowInfo>& shows();
-/// Throws CommandError with the nearest name when there is no such thing.
-Show show_from_name(const std::string& name);
-
-struct RenderOptions {
-  std::string technique = "auto";  ///< `name` or `name:variant`, see techniques()
-  int samples = 4;                 ///< colour samples per pixel, 1 to 1024
-  Filter filter = Filter::anisotropic;
-  int face_size = 0;              ///< image-based: texels along a cube face, 0: the camera's density at its centre
-  PieceOptions pieces{};          ///< piecewise: how finely the camera is cut
-  int tile = 0;                   ///< largest tile's side in pixels, 0: what the driver allows
-  std::vector<Effect> effects{};  ///< on colour, one after another; up to max_effects, what is shown included
-  std::set<Show> show{};          ///< over colour
-  std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
-};
-
-/// The effects asked for, then those that show something. Throws CommandError for a chain that check_effects refuses.
-std::vector<Effect> effects_of(const RenderOptions& options);
-
-/// What a picture took. Times are milliseconds, of the GPU's own clock where there is a GPU.
-struct RenderStats {
-  std::string technique;                     ///< the one that drew, `name:variant`
-  std::string renderer;                      ///< the GL renderer
-  size_t triangles = 0;                      ///< in the scene
-  size_t triangles_drawn = 0;                ///< primitives that reached the rasterizer for surfaces, over all passes
-  std::optional<uint64_t> fragments_shaded;  ///< for surfaces; nothing where the driver does not count
-  uint64_t samples_kept = 0;                 ///< of those, samples that passed the depth test and were no hole
-  size_t buffer_bytes = 0;                   ///< on the GPU: geometry, textures, targets
-  size_t pieces = 0;                         ///< piecewise: that make up the image
-  double piece_error_px = 0.0;               ///< piecewise: from the camera, at most
-  int tiles = 0;
-  int passes = 0;  ///< colour passes accumulated
-  std::vector<std::pair<std::string, double>> stage_ms;
-};
-
-struct VariantInfo {
-  std::string name;
-  std::string description;
-};
-
-struct TechniqueInfo {
-  std::string name;
-  std::string description;
-  bool exact;                         ///< equal to `raycast` but for rounding at edges
-  bool needs_project;                 ///< cannot draw a ray map
-  std::vector<VariantInfo> variants;  ///< the first is the default; empty: none
-};
 
 /// Every technique, in the order of the registry.
 const std::vector<TechniqueInfo>& techniques();

@@ -7,7 +7,7 @@
 
 #include "omma/camera/camera.h"
 #include "omma/image/image.h"
-#include "omma/technique/renderer.h"
+#include "omma/technique/picture.h"
 
 namespace omma {
 

@@ -10,8 +10,7 @@ class FeedbackDrawer : public PieceDrawer {
   explicit FeedbackDrawer(DrawTools& tools) : tools_(tools), clusters_(tools.scene), lists_(tools), blended_(tools) {}
 
   void scene_changed() override {
-    clusters_.update();
-    lists_.forget();
+    if (clusters_.update()) lists_.forget();
   }
   size_t buffer_bytes() const override { return clusters_.bytes() + lists_.bytes() + blended_.bytes(); }
 

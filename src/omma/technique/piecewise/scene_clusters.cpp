@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "omma/technique/piecewise/dispatch.h"
 
@@ -47,7 +48,7 @@ std::vector<glm::vec4> cluster_spheres(const Mesh& mesh) {
 
 SceneClusters::SceneClusters(const GpuScene& scene) : scene_(scene), spheres_(scene.scene().meshes.size()) { update(); }
 
-void SceneClusters::update() {
+bool SceneClusters::update() {
   const Scene& scene = scene_.scene();
   for (size_t m = 0; m < scene.meshes.size(); ++m) {
     if (spheres_[m].empty() || scene.meshes[m].deforms()) spheres_[m] = cluster_spheres(scene.meshes[m]);
@@ -70,7 +71,7 @@ void SceneClusters::update() {
     parts.push_back({uint32_t(part.instance), part.first_triangle, count, cull_sign});
   }
 
-  groups_.clear();
+  const std::vector<ClusterGroup> groups_before = std::exchange(groups_, {});
   std::vector<ClusterRecord> all;
   solid_cluster_count_ = 0;
   for (const auto& [key, clusters] : sorted) {
@@ -83,6 +84,7 @@ void SceneClusters::update() {
   cluster_count_ = uint32_t(all.size());
   parts_.write(std::span<const PartRecord>(parts));
   clusters_.write(std::span<const ClusterRecord>(all));
+  return groups_ != groups_before;
 }
 
 void SceneClusters::bind() const {

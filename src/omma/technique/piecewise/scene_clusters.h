@@ -17,6 +17,7 @@ struct ClusterGroup {
   bool mirrored = false;
   bool blended = false;
   uint32_t first_cluster = 0, last_cluster = 0;  ///< the last one excluded
+  friend bool operator==(const ClusterGroup&, const ClusterGroup&) = default;
 };
 
 class SceneClusters {
@@ -24,8 +25,8 @@ class SceneClusters {
   static constexpr uint32_t cluster_triangles = 64;
 
   explicit SceneClusters(const GpuScene& scene);
-  /// Takes over deformed vertices and mirrored transforms.
-  void update();
+  /// Takes over deformed vertices and mirrored transforms. False when the groups stay as they were.
+  bool update();
 
   /// The vertices and, at unit 19, the parts as buffer textures.
   void bind() const;
