@@ -54,14 +54,14 @@ import math
 import struct
 
 rows = []
-for y in reversed(range(64)):  # PFM begins at the bottom
-    for x in range(64):
-        u, v = (x + 0.5) / 64, (y + 0.5) / 64
+for y in reversed(range(32)):  # PFM begins at the bottom
+    for x in range(32):
+        u, v = (x + 0.5) / 32, (y + 0.5) / 32
         fade = 0.8 * u * (1 - u) * v * (1 - v)
         rows.append((fade * math.sin(7 * v + 2 * u), fade * math.sin(6 * u - v), 0.0))
 
 with open("build/gallery_offsets.pfm", "wb") as file:
-    file.write(b"PF\n64 64\n-1.0\n")
+    file.write(b"PF\n32 32\n-1.0\n")
     for row in rows:
         file.write(struct.pack("<3f", *row))
 END

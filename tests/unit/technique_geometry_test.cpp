@@ -9,6 +9,7 @@
 #include "omma/technique/mesh_pass.h"
 #include "omma/technique/planar/planar.h"
 #include "omma/technique/registry.h"
+#include "omma/technique/renderer.h"
 #include "tests/unit/camera_samples.h"
 
 namespace omma {
