@@ -146,14 +146,15 @@ Layout equal_pieces(std::span<const ImagePart> parts, const SeenPixels& seen, in
 }  // namespace
 
 Approximation approximate(const Camera& camera, const PieceOptions& options) {
-  if (!(options.tolerance_px >= 0.01 && options.tolerance_px <= 100.0)) {
-    throw CommandError("pieces: a tolerance of {} px is out of range; 0.01 to 100 is accepted", options.tolerance_px);
+  const double tolerance_px = options.tolerance_px.value_or(default_tolerance_px);
+  if (!(tolerance_px >= 0.01 && tolerance_px <= 100.0)) {
+    throw CommandError("pieces: a tolerance of {} px is out of range; 0.01 to 100 is accepted", tolerance_px);
   }
   if (options.count < 0 || options.count > static_cast<int>(most_pieces)) {
     throw CommandError("pieces: a count of {} is out of range; 1 to {}, or 0 for as few as the tolerance needs",
                        options.count, most_pieces);
   }
-  if (camera.pieces() && options.count == 0 && options.tolerance_px == PieceOptions().tolerance_px) {
+  if (camera.pieces() && options.count == 0 && !options.tolerance_px) {
     return {*camera.pieces(), measure_pieces(*camera.pieces(), camera), "exact"};
   }
   const SeenPixels seen(camera);
@@ -164,12 +165,12 @@ Approximation approximate(const Camera& camera, const PieceOptions& options) {
   if (options.count > 0) {
     layout = equal_pieces(parts, seen, options.count);
   } else {
-    layout = single_pieces(parts, options.tolerance_px);
-    if (!layout) layout = rows_of(parts, seen, options.tolerance_px);
+    layout = single_pieces(parts, tolerance_px);
+    if (!layout) layout = rows_of(parts, seen, tolerance_px);
     // Triangles of a few pixels show no more than the pixels do.
     const size_t most =
         std::min(most_pieces, static_cast<size_t>(camera.size().width) * camera.size().height / 16 + 1000);
-    if (!layout) layout = triangles_of(parts, seen, options.tolerance_px, most);
+    if (!layout) layout = triangles_of(parts, seen, tolerance_px, most);
   }
   PieceSet pieces(camera.size(), std::move(layout->pieces));
   const PieceError error = measure_pieces(pieces, camera);

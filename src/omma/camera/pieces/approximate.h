@@ -1,6 +1,8 @@
 // Pieces for any camera: as few as keep the picture within a tolerance, or as many as are asked for.
 #pragma once
 
+#include <optional>
+
 #include "omma/camera/camera.h"
 #include "omma/camera/pieces/piece_set.h"
 
@@ -14,9 +16,11 @@ struct PieceError {
   size_t points = 0;      ///< of the image that were measured
 };
 
+inline constexpr double default_tolerance_px = 0.25;
+
 struct PieceOptions {
-  double tolerance_px = 0.25;  ///< 0.01 to 100
-  int count = 0;               ///< above 0: about so many pieces of equal size, whatever the error
+  std::optional<double> tolerance_px{};  ///< 0.01 to 100; nothing: the default, or a camera's own pieces as they are
+  int count = 0;                         ///< above 0: about so many pieces of equal size, whatever the error
   friend bool operator==(const PieceOptions&, const PieceOptions&) = default;
 };
 
