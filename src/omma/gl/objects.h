@@ -88,7 +88,7 @@ class Buffer : public Object<BufferTraits> {
   Buffer() = default;
   explicit Buffer(size_t bytes, const void* data = nullptr) : Object(create()), bytes_(bytes) {
     // GL has no empty buffers; a scene without lights still binds one.
-    glNamedBufferStorage(id(), GLsizeiptr(bytes > 0 ? bytes : 16), data, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(id(), GLsizeiptr(bytes > 0 ? bytes : 16), data, GL_DYNAMIC_STORAGE_BIT | GL_MAP_WRITE_BIT);
   }
   template <typename T>
   explicit Buffer(std::span<const T> values) : Buffer(values.size_bytes(), values.data()) {}
@@ -109,6 +109,27 @@ class Buffer : public Object<BufferTraits> {
     return id;
   }
   size_t bytes_ = 0;
+};
+
+/// A buffer's first `count` values for writing, from any thread, for as long as this lives. What stood in the buffer is
+/// lost. The buffer holds so many.
+template <typename T>
+class WriteMapping {
+ public:
+  WriteMapping(const Buffer& buffer, size_t count)
+      : buffer_(buffer.id()),
+        values_(static_cast<T*>(glMapNamedBufferRange(buffer_, 0, GLsizeiptr(count * sizeof(T)),
+                                                      GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT)),
+                count) {}
+  ~WriteMapping() { glUnmapNamedBuffer(buffer_); }
+  WriteMapping(const WriteMapping&) = delete;
+  WriteMapping& operator=(const WriteMapping&) = delete;
+
+  std::span<T> values() const { return values_; }
+
+ private:
+  GLuint buffer_;
+  std::span<T> values_;
 };
 
 class Texture : public Object<TextureTraits> {

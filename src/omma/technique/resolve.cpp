@@ -1,93 +1,124 @@
 #include "omma/technique/resolve.h"
 
-#include <algorithm>
-#include <map>
+#include "omma/base/error.h"
 
 namespace omma {
 namespace {
 
-constexpr int tile_side = 32;
-
-/// The squares of the image in which each material is seen.
-std::map<int, std::vector<glm::uvec2>> tiles_of_materials(const VisibleTriangles& visible, const Scene& scene) {
-  std::map<int, std::vector<glm::uvec2>> tiles;
-  std::vector<int> seen;
-  for (int y0 = 0; y0 < visible.size.height; y0 += tile_side) {
-    for (int x0 = 0; x0 < visible.size.width; x0 += tile_side) {
-      seen.clear();
-      uint32_t last_instance = VisibleTriangles::nothing;
-      for (int y = y0; y < std::min(y0 + tile_side, visible.size.height); ++y) {
-        for (int x = x0; x < std::min(x0 + tile_side, visible.size.width); ++x) {
-          const uint32_t instance = visible.hits[size_t(y) * size_t(visible.size.width) + size_t(x)].y;
-          if (instance == last_instance || instance == VisibleTriangles::nothing) continue;
-          last_instance = instance;
-          seen.push_back(scene.meshes[size_t(scene.instances[instance].mesh)].material);
-        }
-      }
-      std::sort(seen.begin(), seen.end());
-      seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-      for (int material : seen) tiles[material].emplace_back(x0 / tile_side, y0 / tile_side);
-    }
-  }
-  return tiles;
+/// As in shaders/technique/triangle_record.glsl.
+size_t record_texels(const gl::Defines& defines) {
+  return size_t(7) + 3 * defines.count("TRIANGLE_COLORS") + 3 * defines.count("TRIANGLE_TANGENTS") +
+         2 * defines.count("EFFECTS");
 }
 
 }  // namespace
 
-void Resolver::draw(const View& view, const VisibleTriangles& visible, bool blended) {
-  if (!texture_ || texture_size_ != visible.size) {
-    texture_ = gl::Texture::image(GL_RG32UI, visible.size);
-    texture_size_ = visible.size;
+Resolver::Resolver(DrawTools& tools) : tools_(tools), squares_(tools.scene.scene()) {
+  for (const Mesh& mesh : tools.scene.scene().meshes) has_colors_ |= !mesh.colors.empty();
+  for (const Material& material : tools.scene.scene().materials) has_tangents_ |= material.normal_texture >= 0;
+  glEnableVertexArrayAttrib(squares_array_.id(), 0);
+  glVertexArrayAttribIFormat(squares_array_.id(), 0, 2, GL_UNSIGNED_INT, 0);
+  glVertexArrayBindingDivisor(squares_array_.id(), 0, 1);
+}
+
+void Resolver::draw(const View& view, const VisibleTriangles& visible) {
+  set(view, visible);
+  // A pixel without a ray is black; labels were cleared to nothing.
+  if (!view.labels()) draw_background(view);
+  draw_surfaces(view);
+}
+
+void Resolver::draw_over(const View& view, const VisibleTriangles& visible) {
+  set(view, visible);
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  draw_surfaces(view);
+  glDisable(GL_BLEND);
+}
+
+gl::Defines Resolver::record_defines(const View& view) const {
+  gl::Defines defines = camera_defines(view.camera);
+  defines.merge(effect_defines(view.effects));
+  if (has_colors_) defines["TRIANGLE_COLORS"] = "";
+  if (has_tangents_) defines["TRIANGLE_TANGENTS"] = "";
+  return defines;
+}
+
+void Resolver::set(const View& view, const VisibleTriangles& visible) {
+  const size_t pixels = size_t(visible.size.width) * size_t(visible.size.height);
+  if (const auto most = size_t(tools_.context.limits().buffer_texels); pixels > most) {
+    throw MachineError("an image of {} x {} pixels does not fit into this driver's buffers of {} texels; set a tile",
+                       visible.size.width, visible.size.height, most);
   }
-  glTextureSubImage2D(texture_.id(), 0, 0, 0, visible.size.width, visible.size.height, GL_RG_INTEGER, GL_UNSIGNED_INT,
-                      visible.hits.data());
-  texture_.bind(4);
+  pixels_.reserve(pixels * sizeof(uint32_t));
+  {
+    const gl::WriteMapping<uint32_t> places(pixels_.buffer(), pixels);
+    squares_.sort(visible, places.values());
+  }
+  const std::vector<glm::uvec2>& triangles = squares_.triangles();
+  triangles_.write(std::span<const glm::uvec2>(triangles));
+  const gl::Defines defines = record_defines(view);
+  const size_t record_bytes = record_texels(defines) * sizeof(glm::vec4);
+  records_.reserve(std::max<size_t>(1, triangles.size()) * record_bytes);
+
   tools_.scene.bind();
   tools_.scene.bind_vertex_textures();
   tools_.camera_textures.bind(view.camera);
+  pixels_.bind(4);
+  triangles_.bind(10);
+  records_.bind(11);
+  if (triangles.empty()) return;
+  tools_.programs.get({{GL_VERTEX_SHADER, "technique/triangle_record.vert"}}, defines).use();
+  glBindVertexArray(tools_.no_vertices.id());
+  glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, records_.buffer().id(), 0,
+                    GLsizeiptr(triangles.size() * record_bytes));
+  glEnable(GL_RASTERIZER_DISCARD);
+  glBeginTransformFeedback(GL_POINTS);
+  glDrawArrays(GL_POINTS, 0, GLsizei(triangles.size()));
+  glEndTransformFeedback();
+  glDisable(GL_RASTERIZER_DISCARD);
+  glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+}
 
-  // Each pixel's material becomes its depth; squares drawn at a material's depth then meet only that material's pixels.
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_ALWAYS);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  tools_.draw_fullscreen(tools_.programs.get(
-      {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "technique/material_depth.frag"}}, {}));
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+void Resolver::draw_squares(const gl::Program& program, const View& view, const std::vector<glm::uvec2>& squares) {
+  program.use();
+  set_camera(program, view);
+  program.set("visible_width", view.size().width);
+  program.set("target_size", glm::vec2(view.size().width, view.size().height));
+  program.set("side", float(VisibleSquares::side));
+  const gl::Buffer buffer{std::span<const glm::uvec2>(squares)};
+  glVertexArrayVertexBuffer(squares_array_.id(), 0, buffer.id(), 0, sizeof(glm::uvec2));
+  glBindVertexArray(squares_array_.id());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(squares.size()));
+}
 
-  glDepthFunc(GL_EQUAL);
-  glDepthMask(GL_FALSE);
-  if (blended) {
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  }
+void Resolver::draw_background(const View& view) {
+  if (view.camera.pieces() != nullptr) return tools_.draw_background(view);
+  const GLfloat black[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+  glClearBufferfv(GL_COLOR, 0, black);
+  const auto found = squares_.squares().find(VisibleSquares::background);
+  if (found == squares_.squares().end()) return;
+  draw_squares(tools_.programs.get({{GL_VERTEX_SHADER, "technique/material_tile.vert"},
+                                    {GL_FRAGMENT_SHADER, "technique/resolve_background.frag"}},
+                                   camera_defines(view.camera)),
+               view, found->second);
+}
+
+void Resolver::draw_surfaces(const View& view) {
   tools_.counters.begin();
-  const gl::VertexArray squares = gl::create_vertex_array();
-  glEnableVertexArrayAttrib(squares.id(), 0);
-  glVertexArrayAttribIFormat(squares.id(), 0, 2, GL_UNSIGNED_INT, 0);
-  glVertexArrayBindingDivisor(squares.id(), 0, 1);
-  for (const auto& [material, tiles] : tiles_of_materials(visible, tools_.scene.scene())) {
-    gl::Defines defines = camera_defines(view.camera);
+  for (const auto& [material, squares] : squares_.squares()) {
+    if (material == VisibleSquares::background) continue;
+    gl::Defines defines = record_defines(view);
     defines.merge(output_defines(view.outputs));
     defines.merge(tools_.scene.materials().defines(material, view.anisotropic(), view.labels()));
-    defines.merge(effect_defines(view.effects));
     const gl::Program& program = tools_.programs.get(
         {{GL_VERTEX_SHADER, "technique/material_tile.vert"}, {GL_FRAGMENT_SHADER, "technique/resolve.frag"}}, defines);
-    program.use();
-    set_camera(program, view);
     set_effects(program, view.effects);
-    program.set("target_size", glm::vec2(visible.size.width, visible.size.height));
-    program.set("side", float(tile_side));
-    program.set("material", unsigned(material));
+    program.set("material_number", material);
     tools_.scene.materials().bind(material, view.anisotropic());
-    const gl::Buffer buffer{std::span<const glm::uvec2>(tiles)};
-    glVertexArrayVertexBuffer(squares.id(), 0, buffer.id(), 0, sizeof(glm::uvec2));
-    glBindVertexArray(squares.id());
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(tiles.size()));
+    draw_squares(program, view, squares);
   }
   tools_.counters.end();
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_DEPTH_TEST);
 }
 
 }  // namespace omma

@@ -16,6 +16,7 @@ class Raycast : public Technique {
   explicit Raycast(DrawTools& tools) : tools_(tools), trees_(tools.scene.scene()), resolver_(tools) {}
   bool multisamples() const override { return false; }
   void scene_changed() override { trees_.update(); }
+  size_t buffer_bytes() const override { return resolver_.bytes(); }
 
   void draw(const View& view, const Target& target) override {
     tools_.timer.mark("trace");
@@ -26,13 +27,14 @@ class Raycast : public Technique {
     trees_.nearest(at_centre, rays.directions, rays.size.width, view.labels() ? Solid::labels : Solid::opaque, hits);
     VisibleTriangles visible{rays.size, {}};
     visible.hits.reserve(hits.size());
-    for (const RayHit& hit : hits) visible.hits.emplace_back(hit.triangle, hit.instance);
+    for (size_t i = 0; i < hits.size(); ++i) {
+      const bool has_ray = rays.directions[i] != glm::vec3(0.0f);
+      visible.hits.emplace_back(hits[i].triangle, has_ray ? hits[i].instance : VisibleTriangles::no_ray);
+    }
 
-    target.begin();
-    tools_.timer.mark("background");
-    tools_.draw_background(view);
     tools_.timer.mark("resolve");
-    resolver_.draw(view, visible, false);
+    target.begin();
+    resolver_.draw(view, visible);
     if (!view.labels() && trees_.has_blending()) {
       tools_.timer.mark("blend");
       draw_blended(view, trees_.blended(at_centre, rays.directions, hits));
@@ -65,7 +67,7 @@ class Raycast : public Technique {
                               ? glm::uvec2(surfaces[i][layer].triangle, surfaces[i][layer].instance)
                               : glm::uvec2(VisibleTriangles::nothing);
       }
-      resolver_.draw(view, visible, true);
+      resolver_.draw_over(view, visible);
     }
   }
 
