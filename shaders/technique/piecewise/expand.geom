@@ -1,5 +1,6 @@
 // An item with the numbers of pieces, into those of them that it reaches.
-#include "technique/piecewise/slots.glsl"
+#include "technique/piecewise/coverage.glsl"
+#include "technique/replication/slots.glsl"
 #include "technique/piecewise/pulled_vertex.glsl"
 
 layout(points) in;

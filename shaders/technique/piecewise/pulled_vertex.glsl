@@ -1,5 +1,5 @@
 // One of an item's three vertices, fetched by number, into a piece.
-#include "technique/piecewise/scene_triangle.glsl"
+#include "technique/replication/scene_triangle.glsl"
 #include "technique/piecewise/piece_vertex.glsl"
 
 void pull_vertex(uint item, uint piece, int corner_number) {

@@ -1,6 +1,7 @@
 // The pieces that an item reaches as runs of numbers, for stages that cannot keep a list: pieces near each other have
 // numbers near each other. What is left when runs run out goes into the last one, gaps included.
-#include "technique/piecewise/slots.glsl"
+#include "technique/piecewise/coverage.glsl"
+#include "technique/replication/slots.glsl"
 
 struct Runs {
   uint total;  // pieces, gaps included

@@ -65,7 +65,7 @@ const gl::Program& use_material(DrawTools& tools, const MeshPass& pass, const Vi
   defines.merge(tools.scene.materials().defines(material, view.anisotropic(), view.labels()));
   defines.merge(effect_defines(view.effects));
   std::vector<gl::Stage> stages = pass.stages;
-  stages.push_back({GL_FRAGMENT_SHADER, "technique/mesh.frag"});
+  stages.push_back({GL_FRAGMENT_SHADER, pass.fragment_shader});
   const gl::Program& program = tools.programs.get(stages, defines);
   program.use();
   pass.set_uniforms(program);

@@ -12,12 +12,13 @@
 namespace omma {
 
 struct MeshPass {
-  std::vector<gl::Stage> stages;  ///< all but the fragment shader, which is technique/mesh.frag
+  std::vector<gl::Stage> stages;  ///< all but the fragment shader
   gl::Defines defines;
   std::function<void(const gl::Program&)> set_uniforms;  ///< called once for each program
   std::function<bool(const Bounds& world)> may_be_seen;  ///< whole parts that answer false are left out
   bool mirror_image = false;                             ///< the picture turns windings round
   bool culls = true;  ///< false: triangles that face away were left out before the rasterizer
+  const char* fragment_shader = "technique/mesh.frag";
 };
 
 /// Depth test, counters and blending of surfaces, for as long as it lives. The scene's vertices are bound.

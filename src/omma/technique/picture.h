@@ -62,6 +62,7 @@ struct RenderStats {
 struct VariantInfo {
   std::string name;
   std::string description;
+  bool needs_project = false;  ///< cannot draw a ray map, whatever its technique's other variants can
 };
 
 struct TechniqueInfo {

@@ -5,6 +5,7 @@
 #include "omma/base/error.h"
 #include "omma/base/names.h"
 #include "omma/technique/image_based/image_based.h"
+#include "omma/technique/nonlinear/nonlinear.h"
 #include "omma/technique/piecewise/piecewise.h"
 #include "omma/technique/planar/planar.h"
 #include "omma/technique/raycast/raycast.h"
@@ -14,7 +15,8 @@ namespace omma {
 namespace {
 
 const TechniqueEntry* const entries[] = {
-    &planar_technique, &image_based_technique, &vertex_technique, &piecewise_technique, &raycast_technique,
+    &planar_technique,    &image_based_technique, &vertex_technique,
+    &piecewise_technique, &nonlinear_technique,   &raycast_technique,
 };
 
 /// Throws CommandError for a name or variant that does not exist.
@@ -40,6 +42,13 @@ ChosenTechnique find(std::string_view text) {
 
 }  // namespace
 
+bool ChosenTechnique::needs_project() const {
+  const std::vector<VariantInfo>& variants = entry->info.variants;
+  return entry->info.needs_project || std::any_of(variants.begin(), variants.end(), [&](const VariantInfo& info) {
+           return info.name == variant && info.needs_project;
+         });
+}
+
 std::span<const TechniqueEntry* const> technique_entries() { return entries; }
 
 ChosenTechnique choose_technique(std::string_view text, const Camera& camera) {
@@ -48,10 +57,9 @@ ChosenTechnique choose_technique(std::string_view text, const Camera& camera) {
     return find(planar_draws(camera) ? planar_technique.info.name : raycast_technique.info.name);
   }
   const ChosenTechnique chosen = find(text);
-  if (chosen.entry->info.needs_project && camera.lens() == nullptr) {
-    throw CommandError(
-        "technique '{}' projects vertices, and a ray map has no formula for that; use raycast or image-based",
-        chosen.name());
+  if (chosen.needs_project() && camera.lens() == nullptr) {
+    throw CommandError("technique '{}' projects vertices, and {} has no formula for that; use raycast or nonlinear",
+                       chosen.name(), camera.pieces() != nullptr ? "a camera of pieces" : "a ray map");
   }
   if (chosen.entry == &planar_technique && !planar_draws(camera)) {
     throw CommandError("technique 'planar' draws the perspective camera only; use auto, raycast or image-based");

@@ -15,6 +15,7 @@ struct ChosenTechnique {
   const TechniqueEntry* entry;
   std::string variant;  ///< empty when the technique has none
   std::string name() const { return variant.empty() ? entry->info.name : entry->info.name + ":" + variant; }
+  bool needs_project() const;  ///< cannot draw a ray map
 };
 
 /// The technique of a text, `auto` included. Throws CommandError with the nearest name, or when the technique cannot

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "omma/technique/piecewise/piece_drawer.h"
-#include "omma/technique/piecewise/replicator.h"
+#include "omma/technique/replication/replicator.h"
 
 namespace omma {
 

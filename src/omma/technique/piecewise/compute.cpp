@@ -33,7 +33,6 @@ class ComputeDrawer : public PieceDrawer {
     tools_.timer.mark("draw");
     const PieceClipping clipping;
     const SurfaceState state(tools_, false);
-    glBindVertexArray(tools_.no_vertices.id());
     solid_.bind();
     const MeshPass pass = replica_pass(pieces, {{GL_VERTEX_SHADER, "technique/piecewise/replica.vert"}});
     for (size_t i = 0; i < groups.size(); ++i) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "omma/technique/piecewise/gpu_pieces.h"
-#include "omma/technique/piecewise/scene_clusters.h"
+#include "omma/technique/replication/scene_clusters.h"
 #include "omma/technique/technique.h"
 
 namespace omma {

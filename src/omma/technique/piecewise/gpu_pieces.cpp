@@ -1,10 +1,10 @@
 #include "omma/technique/piecewise/gpu_pieces.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
+#include "omma/technique/sample_places.h"
 #include "omma/technique/target.h"
 
 namespace omma {
@@ -28,12 +28,6 @@ struct PolygonRecord {
 };
 enum : int { mirrored_flag = 1, wide_flag = 2, contested_flag = 4 };
 
-/// Two texels, as in shaders/technique/piecewise/coverage.glsl.
-struct NodeRecord {
-  glm::vec4 cone;
-  glm::uvec4 link;
-};
-constexpr uint32_t no_piece = 0xffffffffu;
 constexpr size_t children = 4;
 
 struct Frame {
@@ -124,7 +118,7 @@ uint64_t morton(const Piece& piece) {
 }
 
 /// The node over pieces `first` to `last`, and all below it.
-void add_node(std::vector<NodeRecord>& nodes, const std::vector<PieceRecord>& pieces, size_t first, size_t last) {
+void add_node(std::vector<ConeNode>& nodes, const std::vector<PieceRecord>& pieces, size_t first, size_t last) {
   glm::dvec3 axis(0.0);
   for (size_t p = first; p < last; ++p) {
     for (const glm::vec4& ray : pieces[p].ray) axis += glm::dvec3(ray);
@@ -135,10 +129,7 @@ void add_node(std::vector<NodeRecord>& nodes, const std::vector<PieceRecord>& pi
     for (const glm::vec4& ray : pieces[p].ray) cosine = std::min(cosine, glm::dot(axis, glm::dvec3(ray)));
   }
   const size_t number = nodes.size();
-  const bool wide = cosine < 1e-3;
-  const float sine = wide ? 2.0f : float(std::sqrt(std::max(0.0, 1.0 - cosine * cosine)));
-  nodes.push_back({glm::vec4(glm::vec3(axis), sine),
-                   {0, last - first == 1 ? uint32_t(first) : no_piece, std::bit_cast<uint32_t>(float(cosine)), 0}});
+  nodes.emplace_back(axis, std::acos(std::min(cosine, 1.0)), last - first == 1 ? uint32_t(first) : ConeNode::no_piece);
   if (last - first > 1) {
     const size_t step = (last - first + children - 1) / children;
     for (size_t begin = first; begin < last; begin += step) {
@@ -148,31 +139,12 @@ void add_node(std::vector<NodeRecord>& nodes, const std::vector<PieceRecord>& pi
   nodes[number].link.x = uint32_t(nodes.size());
 }
 
-/// Of the bound framebuffer's pixels, in parts of the grid.
-std::vector<glm::ivec2> places_of_samples(int samples) {
-  if (samples <= 1) return {glm::ivec2(piece_grid / 2)};
-  // Asked of a framebuffer of its own: what is bound may be anything.
-  static constexpr Channel channels[] = {Channel::color};
-  const Target target(ImageSize{1, 1}, channels, samples);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  // A driver may have more samples than it was asked for.
-  GLint given = 0;
-  glGetIntegerv(GL_SAMPLES, &given);
-  std::vector<glm::ivec2> places;
-  for (int s = 0; s < given; ++s) {
-    glm::vec2 place;
-    glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(s), &place.x);
-    places.emplace_back(glm::round(place * float(piece_grid)));
-  }
-  return places;
-}
-
 }  // namespace
 
 void GpuPieces::set(const Camera& pieces, const View& view) {
   if (samples_ != view.samples) {
     samples_ = view.samples;
-    sample_places_ = places_of_samples(view.samples);
+    sample_places_ = sample_places(view.samples);
   }
   if (camera_ == pieces && tile_ == view.tile && shift_ == view.shift) return;
   camera_ = pieces;
@@ -209,23 +181,23 @@ void GpuPieces::set(const Camera& pieces, const View& view) {
   }
   any_mirrored_ = std::find(mirrored_.begin(), mirrored_.end(), true) != mirrored_.end();
   all_mirrored_ = std::find(mirrored_.begin(), mirrored_.end(), false) == mirrored_.end();
-  std::vector<NodeRecord> nodes;
+  std::vector<ConeNode> nodes;
   if (!records.empty()) add_node(nodes, records, 0, records.size());
   node_count_ = int(nodes.size());
   records_.write(std::span<const PieceRecord>(records));
   polygons_.write(std::span<const PolygonRecord>(polygons));
-  nodes_.write(std::span<const NodeRecord>(nodes));
+  nodes_.write(std::span<const ConeNode>(nodes));
   if (overlapping_) fill_bins(order);
 }
 
 void GpuPieces::fill_bins(const std::vector<uint32_t>& order) {
-  std::vector<uint32_t> place(set_->pieces().size(), no_piece);
+  std::vector<uint32_t> place(set_->pieces().size(), ConeNode::no_piece);
   for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
   std::vector<uint32_t> first, pieces;
   for (size_t bin = 0; bin + 1 < set_->bin_first().size(); ++bin) {
     first.push_back(uint32_t(pieces.size()));
     for (uint32_t i = set_->bin_first()[bin]; i < set_->bin_first()[bin + 1]; ++i) {
-      if (const uint32_t at = place[set_->bin_pieces()[i]]; at != no_piece) pieces.push_back(at);
+      if (const uint32_t at = place[set_->bin_pieces()[i]]; at != ConeNode::no_piece) pieces.push_back(at);
     }
   }
   first.push_back(uint32_t(pieces.size()));
@@ -241,6 +213,8 @@ void GpuPieces::bind() const {
   bin_first_.bind(10);
   bin_pieces_.bind(11);
 }
+
+gl::Defines GpuPieces::coverage_defines() const { return {{"COVERAGE", "technique/piecewise/coverage.glsl"}}; }
 
 gl::Defines GpuPieces::defines() const {
   gl::Defines defines{{"PIECES", "1"}, {"SAMPLES", std::to_string(sample_places_.size())}};

@@ -12,20 +12,22 @@
 #include "omma/gl/objects.h"
 #include "omma/gl/program.h"
 #include "omma/math/bounds.h"
+#include "omma/technique/replication/cone_tree.h"
 #include "omma/technique/view.h"
 
 namespace omma {
 
-class GpuPieces {
+class GpuPieces : public ConeTree {
  public:
   /// Takes those of a camera in the pieces form that reach into the view's tile, as the view's pass samples it.
   void set(const Camera& pieces, const View& view);
 
   /// Texture units 16 to 18, 10 and 11.
-  void bind() const;
+  void bind() const override;
+  gl::Defines coverage_defines() const override;
   /// For shaders/technique/mesh.frag and the vertex stages of technique/piecewise/.
   gl::Defines defines() const;
-  void set_uniforms(const gl::Program& program) const;
+  void set_uniforms(const gl::Program& program) const override;
 
   size_t count() const { return planes_.size(); }
   /// Of all pieces; one that is mirrored turns the windings of its triangles round.

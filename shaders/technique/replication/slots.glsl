@@ -1,11 +1,12 @@
 // Items by slot: a place in a list of clusters, 64 slots each, or, with ITEM_LIST, in a list of items.
-#include "technique/piecewise/coverage.glsl"
+#include "technique/replication/cone_tree.glsl"
+#include "${COVERAGE}"
 
 #ifdef ITEM_LIST
 layout(binding = 20) uniform usamplerBuffer item_texels;
 uniform uint item_count;
 #else
-#include "technique/piecewise/clusters.glsl"
+#include "technique/replication/clusters.glsl"
 layout(binding = 25) uniform usamplerBuffer range_texels;  // the nodes that a cluster reaches: first, end
 #endif
 

@@ -1,6 +1,6 @@
-// The part of the tree of pieces that each cluster's triangles can reach.
-#include "technique/piecewise/coverage.glsl"
-#include "technique/piecewise/clusters.glsl"
+// The part of the tree of cones that each cluster's triangles can reach.
+#include "technique/replication/cone_tree.glsl"
+#include "technique/replication/clusters.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -1,4 +1,4 @@
-// Compute shaders of 64 invocations, as all of technique/piecewise/ are.
+// Compute shaders of 64 invocations, as all of technique/replication/ are.
 #pragma once
 
 #include <epoxy/gl.h>

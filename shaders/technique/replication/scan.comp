@@ -1,5 +1,5 @@
 // One level of the prefix sums: each invocation sums 64 values.
-#include "technique/piecewise/offsets.glsl"
+#include "technique/replication/offsets.glsl"
 
 layout(local_size_x = 64) in;
 

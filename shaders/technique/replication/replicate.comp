@@ -1,7 +1,7 @@
 // How many pieces each item reaches, or, with WRITE, which: first to know where the replicas of each will lie, then to
 // put them there, in the items' order.
-#include "technique/piecewise/slots.glsl"
-#include "technique/piecewise/offsets.glsl"
+#include "technique/replication/slots.glsl"
+#include "technique/replication/offsets.glsl"
 
 layout(local_size_x = 64) in;
 

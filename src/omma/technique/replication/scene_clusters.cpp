@@ -1,11 +1,11 @@
-#include "omma/technique/piecewise/scene_clusters.h"
+#include "omma/technique/replication/scene_clusters.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
 
-#include "omma/technique/piecewise/dispatch.h"
+#include "omma/technique/replication/dispatch.h"
 
 namespace omma {
 namespace {
@@ -13,13 +13,13 @@ namespace {
 static_assert(part_triangles % SceneClusters::cluster_triangles == 0);
 static_assert(part_triangles <= 1u << 10, "an item has ten bits for a triangle of a part");
 
-/// A texel, as in shaders/technique/piecewise/scene_triangle.glsl.
+/// A texel, as in shaders/technique/replication/scene_triangle.glsl.
 struct PartRecord {
   uint32_t instance, first_triangle, count;
   float cull_sign;
 };
 
-/// Two texels, as in shaders/technique/piecewise/slots.glsl.
+/// Two texels, as in shaders/technique/replication/slots.glsl.
 struct ClusterRecord {
   glm::vec4 sphere;
   glm::uvec4 triangles;
@@ -92,15 +92,15 @@ void SceneClusters::bind() const {
   parts_.bind(19);
 }
 
-void SceneClusters::narrow(DrawTools& tools, const GpuPieces& pieces) {
+void SceneClusters::narrow(DrawTools& tools, const ConeTree& tree) {
   tools.timer.mark("clusters");
   ranges_.reserve(cluster_count_ * sizeof(glm::uvec2));
-  const gl::Program& program = tools.programs.get({{GL_COMPUTE_SHADER, "technique/piecewise/narrow.comp"}}, {});
+  const gl::Program& program = tools.programs.get({{GL_COMPUTE_SHADER, "technique/replication/narrow.comp"}}, {});
   program.use();
-  pieces.set_uniforms(program);
+  tree.set_uniforms(program);
   program.set("cluster_count", unsigned(cluster_count_));
   scene_.bind();
-  pieces.bind();
+  tree.bind();
   bind();
   clusters_.bind(20);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, ranges_.buffer().id());

@@ -6,7 +6,7 @@
 
 #include "omma/gl/objects.h"
 #include "omma/technique/gpu_scene.h"
-#include "omma/technique/piecewise/gpu_pieces.h"
+#include "omma/technique/replication/cone_tree.h"
 #include "omma/technique/technique.h"
 
 namespace omma {
@@ -30,9 +30,9 @@ class SceneClusters {
 
   /// The vertices and, at unit 19, the parts as buffer textures.
   void bind() const;
-  /// Finds the part of the tree of pieces that each cluster can reach, and binds clusters and ranges to units 20
+  /// Finds the part of the tree that each cluster can reach, and binds clusters and ranges to units 20
   /// and 25.
-  void narrow(DrawTools& tools, const GpuPieces& pieces);
+  void narrow(DrawTools& tools, const ConeTree& tree);
 
   /// Blended ones last.
   const std::vector<ClusterGroup>& groups() const { return groups_; }

@@ -1,0 +1,31 @@
+// The fragment stage that all variants share: bounding shapes go in, what rays see of their triangles comes out.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "omma/technique/mesh_pass.h"
+#include "omma/technique/technique.h"
+
+namespace omma {
+
+class ExactStage {
+ public:
+  explicit ExactStage(DrawTools& tools) : tools_(tools) {}
+
+  /// Takes the view that the next passes draw.
+  void set(const View& view);
+
+  /// A pass with these stages before shaders/technique/nonlinear/exact.frag. They write EXACT_TRIANGLE, with
+  /// nearest_depth() as depth, for shapes that cover every pixel and sample in which a triangle is seen, each once; a
+  /// triangle that faces away (cull_sign) they leave out. They have the symbols and uniforms of the camera, NEAR and
+  /// `tile_size`. The view must outlive the pass.
+  MeshPass pass(const View& view, std::vector<gl::Stage> stages) const;
+
+ private:
+  DrawTools& tools_;
+  int samples_ = 0;
+  std::vector<glm::ivec2> sample_places_;
+};
+
+}  // namespace omma

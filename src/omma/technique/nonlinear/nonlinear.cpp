@@ -1,0 +1,65 @@
+#include "omma/technique/nonlinear/nonlinear.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "omma/technique/nonlinear/bound_drawer.h"
+
+namespace omma {
+namespace {
+
+struct Variant {
+  VariantInfo info;
+  std::unique_ptr<BoundDrawer> (*make)(DrawTools&);
+};
+
+const Variant variants[] = {
+    {{"hybrid", "a tree of cones over the image says where"}, make_hybrid_drawer},
+};
+
+class Nonlinear : public Technique {
+ public:
+  Nonlinear(DrawTools& tools, std::unique_ptr<BoundDrawer> drawer)
+      : tools_(tools), exact_(tools), drawer_(std::move(drawer)) {}
+  bool multisamples() const override { return true; }
+  void scene_changed() override { drawer_->scene_changed(); }
+  size_t buffer_bytes() const override { return drawer_->buffer_bytes(); }
+
+  void draw(const View& view, const Target& target) override {
+    exact_.set(view);
+    tools_.multisampled(view, target, [&](const Target& image) {
+      image.begin();
+      tools_.timer.mark("background");
+      tools_.draw_background(view);
+      tools_.timer.mark("draw");
+      drawer_->draw(view, exact_);
+    });
+  }
+
+ private:
+  DrawTools& tools_;
+  ExactStage exact_;
+  std::unique_ptr<BoundDrawer> drawer_;
+};
+
+std::vector<VariantInfo> variant_infos() {
+  std::vector<VariantInfo> infos;
+  for (const Variant& variant : variants) infos.push_back(variant.info);
+  return infos;
+}
+
+}  // namespace
+
+const TechniqueEntry nonlinear_technique{
+    {.name = "nonlinear",
+     .description = "each triangle once, its curved edges decided by every fragment's ray; exact for every camera",
+     .exact = true,
+     .needs_project = false,
+     .variants = variant_infos()},
+    [](DrawTools& tools, const std::string& name) -> std::unique_ptr<Technique> {
+      const Variant& variant = *std::find_if(std::begin(variants), std::end(variants),
+                                             [&](const Variant& entry) { return entry.info.name == name; });
+      return std::make_unique<Nonlinear>(tools, variant.make(tools));
+    }};
+
+}  // namespace omma

@@ -1,0 +1,26 @@
+#include "omma/technique/sample_places.h"
+
+#include "omma/technique/target.h"
+
+namespace omma {
+
+std::vector<glm::ivec2> sample_places(int samples) {
+  constexpr int parts = 256;
+  if (samples <= 1) return {glm::ivec2(parts / 2)};
+  // Asked of a framebuffer of its own: what is bound may be anything.
+  static constexpr Channel channels[] = {Channel::color};
+  const Target target(ImageSize{1, 1}, channels, samples);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  // A driver may have more samples than it was asked for.
+  GLint given = 0;
+  glGetIntegerv(GL_SAMPLES, &given);
+  std::vector<glm::ivec2> places;
+  for (int s = 0; s < given; ++s) {
+    glm::vec2 place;
+    glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(s), &place.x);
+    places.emplace_back(glm::round(place * float(parts)));
+  }
+  return places;
+}
+
+}  // namespace omma
