@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 /// As typed.
 struct Options {
   std::string scene, camera, technique = "auto";
-  Text size, samples, filter, background, face_size, tile, tolerance, pieces, stats;
+  Text size, samples, filter, background, face_size, tile, tolerance, pieces, shadows, shadow_size, stats;
   ViewOptions view;
   std::vector<std::string> outputs, effects, show;
   bool overwrite = false;
@@ -71,6 +71,11 @@ RenderOptions render_options_of(const Options& options) {
   if (options.face_size) result.face_size = count_of("--face-size", *options.face_size, 1, max_image_side);
   if (options.tolerance) result.pieces.tolerance_px = number_of("--tolerance", *options.tolerance, 0.01, 100.0);
   if (options.pieces) result.pieces.count = count_of("--pieces", *options.pieces, 1, 1000000);
+  if (options.shadows) result.shadows = shadows_from_name(*options.shadows);
+  if (options.shadow_size) result.shadow_size = count_of("--shadow-size", *options.shadow_size, 16, max_image_side);
+  if (options.shadow_size && result.shadows == Shadows::off) {
+    throw CommandError("--shadow-size is the size of shadow maps; add --shadows paraboloid or --shadows cube");
+  }
   if (options.tile) result.tile = count_of("--tile", *options.tile, 16, max_image_side);
   return result;
 }
@@ -302,6 +307,9 @@ void add_render(CLI::App& tool) {
   add(picture, "--samples", "N", options->samples, "Colour samples a pixel, 1 to 1024, default 4");
   add(picture, "--filter", "F", options->filter, "Textures: trilinear or anisotropic (default)");
   add(picture, "--background", "sky|R,G,B", options->background, "Where nothing is: a sky (default) or linear RGB");
+  add(picture, "--shadows", "KIND", options->shadows,
+      "Lights cast shadows by paraboloid or cube maps of what they see, default off");
+  add(picture, "--shadow-size", "N", options->shadow_size, "Texels along a shadow map, default 1024");
   command->add_option("--effect", options->effects, effect_help())
       ->type_name("EFFECT[:KEY=VALUE,…]")
       ->allow_extra_args(false)

@@ -4,7 +4,7 @@ struct LightRecord {
   vec4 position;   // camera frame; w: range in metres, 0 none
   vec4 direction;  // camera frame, the way the light travels; w: 0 sun, 1 point, 2 spot
   vec4 color;      // suns: irradiance; others: radiant intensity
-  vec4 cone;       // cosines of the spot's inner and outer angle
+  vec4 cone;       // cosines of the spot's inner and outer angle; first and number of its shadow maps
 };
 
 layout(std140, binding = 0) uniform FrameBlock {

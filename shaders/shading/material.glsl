@@ -3,6 +3,9 @@
 #include "common/frame.glsl"
 #include "shading/surface.glsl"
 #include "shading/texture.glsl"
+#ifdef SHADOWS
+#include "shading/shadow.glsl"
+#endif
 #ifdef EFFECTS
 #include "shading/effects.glsl"
 #endif
@@ -123,6 +126,9 @@ vec4 lit(Surface surface, vec4 base) {
     vec3 light;
     vec3 irradiance = incoming_light(light_of(i), surface.position, light);
     float n_l = max(dot(normal, light), 0.0);
+#ifdef SHADOWS
+    if (n_l > 0.0) irradiance *= light_reaching(light_of(i), surface);
+#endif
     radiance += irradiance * (diffuse * (n_l / 3.14159265) + specular(f0, alpha, normal, view, light, n_l, n_v));
   }
   return vec4(radiance, surface_coverage(base));

@@ -7,6 +7,9 @@ struct Surface {
   vec2 uv_dx, uv_dy;  // change per pixel to the right and down
   vec4 color;         // of the vertices, linear
   int triangle, object, material;
+#ifdef SHADOWS
+  vec3 plane;  // of its triangle: a normal of any length, to either side
+#endif
 #ifdef EFFECTS
   vec3 position_dx, position_dy;  // metres per pixel to the right and down
   vec3 barycentric, barycentric_dx, barycentric_dy;

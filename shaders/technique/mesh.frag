@@ -63,6 +63,9 @@ void main() {
   surface.uv_dx = dFdx(vertex.uv);
   surface.uv_dy = dFdy(vertex.uv);
   surface.color = vertex.color;
+#ifdef SHADOWS
+  surface.plane = cross(dFdx(vertex.position), dFdy(vertex.position));
+#endif
   surface.triangle = triangle_number();
   surface.object = int(instance.numbers.w);
   surface.material = int(instance.numbers.z);

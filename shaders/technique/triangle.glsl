@@ -99,6 +99,9 @@ Surface surface_of(Triangle t, uint number, PixelRay ray) {
   surface.triangle = int(number);
   surface.object = int(t.object);
   surface.material = int(t.material);
+#ifdef SHADOWS
+  surface.plane = t.sum;
+#endif
 #ifdef EFFECTS
   surface.position_dx = t.edge_b * bc_dx.x + t.edge_c * bc_dx.y;
   surface.position_dy = t.edge_b * bc_dy.x + t.edge_c * bc_dy.y;

@@ -44,6 +44,37 @@ TEST_F(RenderCommand, EveryChannelIsWritten) {
   }
 }
 
+TEST_F(RenderCommand, ShadowsDarkenAndTakeTheirTime) {
+  const std::vector<std::string> view{"--from", "-30,20,-45", "--to", "0,3,0", "--camera", "perspective"};
+  const auto temple = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"render", "temple", "--size", "48x32", "--samples", "1"};
+    words.insert(words.end(), view.begin(), view.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  ASSERT_EQ(temple({"-o", "off.exr"}).exit_code, 0);
+  ASSERT_EQ(temple({"-o", "on.exr", "--shadows", "cube", "--stats", "s.json"}).exit_code, 0);
+  const auto off = std::get<FloatImage>(read_image(file("off.exr")));
+  const auto on = std::get<FloatImage>(read_image(file("on.exr")));
+  size_t darker = 0;
+  for (size_t i = 0; i < on.values.size(); ++i) {
+    EXPECT_LE(on.values[i], off.values[i] + 1e-3f);
+    darker += on.values[i] < 0.9f * off.values[i];
+  }
+  EXPECT_GT(darker, 50u);
+  EXPECT_LT(darker, on.values.size() / 2);
+  const auto json = nlohmann::json::parse(read_file(file("s.json")));
+  EXPECT_GT(json["frames"][0]["stages_ms"]["shadow maps"], 0.0);
+
+  ToolResult refused = temple({"-o", "a.png", "--shadows", "cubes"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("did you mean 'cube'"), std::string::npos) << refused.err;
+  refused = temple({"-o", "a.png", "--shadow-size", "512"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--shadows"), std::string::npos) << refused.err;
+  EXPECT_EQ(temple({"-o", "a.png", "--shadows", "cube", "--shadow-size", "8"}).exit_code, 2);
+}
+
 TEST_F(RenderCommand, StatsHoldWhatItTook) {
   ASSERT_EQ(run(render({"-o", "a.png", "--stats", "stats.json", "--technique", "raycast"})).exit_code, 0);
   const auto json = nlohmann::json::parse(read_file(file("stats.json")));

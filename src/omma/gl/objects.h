@@ -193,9 +193,9 @@ class Texels {
   explicit Texels(GLenum format) : format_(format) {}
 
   template <typename T>
-  void write(std::span<const T> values) {
-    reserve(values.size_bytes());
-    buffer_.write(values);
+  void write(std::span<const T> values, size_t byte_offset = 0) {
+    reserve(byte_offset + values.size_bytes());
+    buffer_.write(values, byte_offset);
   }
   /// Contents are lost where it grows: by half as much again, so that a little more each frame is not a new one each.
   void reserve(size_t bytes) {

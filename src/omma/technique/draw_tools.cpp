@@ -17,7 +17,16 @@ void DrawTools::multisampled(const View& view, const Target& target, const std::
   multisample_target.resolve_color(target);
 }
 
+gl::Defines DrawTools::surface_defines(const View& view, int material) const {
+  gl::Defines defines = output_defines(view.outputs);
+  defines.merge(scene.materials().defines(material, view.anisotropic(), view.labels()));
+  defines.merge(effect_defines(view.effects));
+  if (scene.has_shadows() && !view.labels()) defines["SHADOWS"] = "1";
+  return defines;
+}
+
 void DrawTools::draw_background(const View& view) {
+  if (view.outputs.empty()) return;
   scene.bind();
   camera_textures.bind(view.camera);
   if (view.camera.pieces() != nullptr) return draw_background_in_pieces(view);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "omma/base/error.h"
+#include "omma/technique/target.h"
 
 namespace omma {
 namespace {
@@ -17,6 +18,12 @@ struct InstanceRecord {
 /// Four texels, as in common/frame.glsl.
 struct LightRecord {
   glm::vec4 position, direction, color, cone;
+};
+
+/// Four texels, as in shading/shadow.glsl, behind those of the lights.
+struct MapRecord {
+  glm::vec4 mapFromCamera[3];  ///< rows: right, down, ahead
+  glm::vec4 lens;              ///< focal length and centre in texels; flat; near depth
 };
 
 /// std140, as in common/frame.glsl.
@@ -54,6 +61,13 @@ Light default_sun() {
   sun.direction = glm::normalize(glm::dvec3(-0.5, -1.0, -0.35));
   sun.color = glm::vec3(2.8f, 2.7f, 2.5f);
   return sun;
+}
+
+MapRecord record(const ShadowLayer& layer, const glm::dmat4& worldFromCamera) {
+  const glm::mat4 rows = glm::transpose(glm::mat4(glm::inverse(layer.worldFromMap) * worldFromCamera));
+  const Lens& lens = *layer.camera.lens();
+  return {{rows[0], -rows[1], -rows[2]},
+          glm::vec4(lens.focal.x, lens.centre.x, layer.flat() ? 1.0f : 0.0f, near_depth)};
 }
 
 LightRecord record(const Light& light, const glm::dmat4& cameraFromWorld) {
@@ -121,14 +135,12 @@ GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&sce
   part_records_ = gl::Buffer(std::span<const glm::uvec2>(part_records));
   instances_ = gl::Buffer(scene.instances.size() * sizeof(InstanceRecord));
   frame_ = gl::Buffer(sizeof(FrameBlock));
-  lights_ = gl::Buffer(std::max<size_t>(1, scene.lights.size()) * sizeof(LightRecord));
 
   position_texels_ = gl::Texture::of_buffer(GL_RGB32F, positions_);
   attribute_texels_ = gl::Texture::of_buffer(GL_RGBA32UI, attributes_);
   color_texels_ = gl::Texture::of_buffer(GL_RGBA8, colors_);
   triangle_texels_ = gl::Texture::of_buffer(GL_RGB32UI, indices_);
   instance_texels_ = gl::Texture::of_buffer(GL_RGBA32UI, instances_);
-  light_texels_ = gl::Texture::of_buffer(GL_RGBA32F, lights_);
 
   vertex_array_ = gl::create_vertex_array();
   const GLuint array = vertex_array_.id();
@@ -150,6 +162,10 @@ GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&sce
   glVertexArrayElementBuffer(array, indices_.id());
 
   place_parts();
+}
+
+std::vector<Light> GpuScene::lights() const {
+  return scene_->lights.empty() ? std::vector<Light>{default_sun()} : scene_->lights;
 }
 
 void GpuScene::upload_vertices(size_t m) {
@@ -195,9 +211,19 @@ void GpuScene::set_view(const glm::dmat4& worldFromCamera, const std::optional<g
   instances_.write(std::span<const InstanceRecord>(records));
 
   std::vector<LightRecord> lights;
-  for (const Light& light : scene_->lights) lights.push_back(record(light, cameraFromWorld));
-  if (lights.empty()) lights.push_back(record(default_sun(), cameraFromWorld));
-  lights_.write(std::span<const LightRecord>(lights));
+  for (const Light& light : this->lights()) lights.push_back(record(light, cameraFromWorld));
+  std::vector<MapRecord> maps;
+  if (shadows_ != nullptr) {
+    for (const ShadowLayer& layer : shadows_->layers) {
+      glm::vec4& cone = lights[size_t(layer.light)].cone;
+      if (cone.w == 0.0f) cone.z = float(maps.size());
+      cone.w += 1.0f;
+      maps.push_back(record(layer, worldFromCamera));
+    }
+  }
+  light_texels_.reserve(lights.size() * sizeof(LightRecord) + maps.size() * sizeof(MapRecord));
+  light_texels_.write(std::span<const LightRecord>(lights));
+  light_texels_.write(std::span<const MapRecord>(maps), lights.size() * sizeof(LightRecord));
 
   const FrameBlock frame{glm::mat4(worldFromCamera), glm::vec4(scene_->ambient, 0.0f),
                          background ? glm::vec4(*background, 1.0f) : glm::vec4(0.0f),
@@ -209,6 +235,7 @@ void GpuScene::bind() const {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.id());
   instance_texels_.bind(14);
   light_texels_.bind(15);
+  if (shadows_ != nullptr) shadows_->maps.bind(26);
 }
 
 void GpuScene::bind_vertex_textures() const {

@@ -14,6 +14,7 @@
 #include "omma/gl/objects.h"
 #include "omma/scene/scene.h"
 #include "omma/shading/materials.h"
+#include "omma/technique/shadow/shadow_layers.h"
 
 namespace omma {
 
@@ -30,6 +31,12 @@ struct Part {
 
 inline constexpr uint32_t part_triangles = 1024;
 
+/// The maps that say which light reaches what.
+struct ShadowTable {
+  std::vector<ShadowLayer> layers;  ///< a light's one after another
+  gl::Texture maps;                 ///< depths, a layer each
+};
+
 class GpuScene {
  public:
   GpuScene(const Scene& scene, const gl::Context& context);
@@ -38,12 +45,17 @@ class GpuScene {
   void update();
   /// Makes everything relative to a camera's pose. `background`: linear RGB, nothing for a sky.
   void set_view(const glm::dmat4& worldFromCamera, const std::optional<glm::vec3>& background);
-  /// Binds uniform block 0, and instances and lights as buffer textures (units 14, 15).
+  /// Lights cast shadows by these maps from the next set_view on; null: none does. The table must outlive its use.
+  void set_shadows(const ShadowTable* shadows) { shadows_ = shadows; }
+  bool has_shadows() const { return shadows_ != nullptr; }
+  /// Binds uniform block 0, instances and lights as buffer textures (units 14, 15), and shadow maps (unit 26).
   void bind() const;
   /// Binds the vertices as buffer textures for whoever fetches them by number (units 5, 6, 7, 9).
   void bind_vertex_textures() const;
 
   const Scene& scene() const { return *scene_; }
+  /// Those of the scene, or a sun where it has none.
+  std::vector<Light> lights() const;
   const std::vector<Part>& parts() const { return parts_; }
   const Materials& materials() const { return materials_; }
   const gl::VertexArray& vertex_array() const { return vertex_array_; }
@@ -62,8 +74,10 @@ class GpuScene {
   Materials materials_;
   std::vector<Part> parts_;
   std::vector<uint32_t> first_vertex_, first_index_;  ///< per mesh, in the common buffers
-  gl::Buffer positions_, attributes_, colors_, indices_, part_records_, instances_, frame_, lights_;
-  gl::Texture position_texels_, attribute_texels_, color_texels_, triangle_texels_, instance_texels_, light_texels_;
+  gl::Buffer positions_, attributes_, colors_, indices_, part_records_, instances_, frame_;
+  gl::Texels light_texels_{GL_RGBA32F};
+  const ShadowTable* shadows_ = nullptr;
+  gl::Texture position_texels_, attribute_texels_, color_texels_, triangle_texels_, instance_texels_;
   gl::VertexArray vertex_array_;
   glm::dmat4 worldFromCamera_{1.0};
   bool has_blending_ = false;

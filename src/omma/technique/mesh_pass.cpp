@@ -61,9 +61,7 @@ SurfaceState::~SurfaceState() {
 
 const gl::Program& use_material(DrawTools& tools, const MeshPass& pass, const View& view, int material, bool mirrored) {
   gl::Defines defines = pass.defines;
-  defines.merge(output_defines(view.outputs));
-  defines.merge(tools.scene.materials().defines(material, view.anisotropic(), view.labels()));
-  defines.merge(effect_defines(view.effects));
+  defines.merge(tools.surface_defines(view, material));
   std::vector<gl::Stage> stages = pass.stages;
   stages.push_back({GL_FRAGMENT_SHADER, pass.fragment_shader});
   const gl::Program& program = tools.programs.get(stages, defines);

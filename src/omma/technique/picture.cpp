@@ -1,5 +1,7 @@
 #include "omma/technique/picture.h"
 
+#include <algorithm>
+
 #include "omma/base/error.h"
 #include "omma/base/names.h"
 
@@ -20,6 +22,13 @@ Show show_from_name(const std::string& name) {
     names.emplace_back(info.name);
   }
   throw CommandError("{}", unknown_name("thing to show", name, names));
+}
+
+Shadows shadows_from_name(const std::string& name) {
+  const std::vector<std::string> names{"off", "paraboloid", "cube"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw CommandError("{}", unknown_name("kind of shadows", name, names));
+  return Shadows(found - names.begin());
 }
 
 std::vector<Effect> effects_of(const RenderOptions& options) {

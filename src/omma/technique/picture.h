@@ -28,6 +28,15 @@ const std::vector<ShowInfo>& shows();
 /// Throws CommandError with the nearest name when there is no such thing.
 Show show_from_name(const std::string& name);
 
+/// Whether lights cast shadows, and which maps of what they see say so.
+enum class Shadows {
+  off,
+  paraboloid,  ///< one or two paraboloids a light
+  cube,        ///< up to six faces of a cube
+};
+/// off, paraboloid, cube. Throws CommandError with the nearest name when there is no such kind.
+Shadows shadows_from_name(const std::string& name);
+
 struct RenderOptions {
   std::string technique = "auto";  ///< `name` or `name:variant`, see techniques()
   int samples = 4;                 ///< colour samples per pixel, 1 to 1024
@@ -38,6 +47,8 @@ struct RenderOptions {
   std::vector<Effect> effects{};  ///< on colour, one after another; up to max_effects, what is shown included
   std::set<Show> show{};          ///< over colour
   std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
+  Shadows shadows = Shadows::off;
+  int shadow_size = 1024;  ///< texels along a shadow map, 16 or more
 };
 
 /// The effects asked for, then those that show something. Throws CommandError for a chain that check_effects refuses.

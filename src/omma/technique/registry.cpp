@@ -67,6 +67,10 @@ ChosenTechnique choose_technique(std::string_view text, const Camera& camera) {
   return chosen;
 }
 
+ChosenTechnique choose_depth_technique(const Camera& camera) {
+  return choose_technique(planar_draws(camera) ? "planar" : "nonlinear", camera);
+}
+
 const std::vector<TechniqueInfo>& techniques() {
   static const std::vector<TechniqueInfo> infos = [] {
     std::vector<TechniqueInfo> list;

@@ -22,4 +22,7 @@ struct ChosenTechnique {
 /// draw the camera.
 ChosenTechnique choose_technique(std::string_view text, const Camera& camera);
 
+/// What draws the depth alone that a camera sees.
+ChosenTechnique choose_depth_technique(const Camera& camera);
+
 }  // namespace omma

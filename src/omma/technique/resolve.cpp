@@ -109,8 +109,7 @@ void Resolver::draw_surfaces(const View& view) {
   for (const auto& [material, squares] : squares_.squares()) {
     if (material == VisibleSquares::background) continue;
     gl::Defines defines = record_defines(view);
-    defines.merge(output_defines(view.outputs));
-    defines.merge(tools_.scene.materials().defines(material, view.anisotropic(), view.labels()));
+    defines.merge(tools_.surface_defines(view, material));
     const gl::Program& program = tools_.programs.get(
         {{GL_VERTEX_SHADER, "technique/material_tile.vert"}, {GL_FRAGMENT_SHADER, "technique/resolve.frag"}}, defines);
     set_effects(program, view.effects);

@@ -32,6 +32,9 @@ struct DrawTools {
   /// that is then averaged into `target`.
   void multisampled(const View& view, const Target& target, const std::function<void(const Target&)>& draw);
 
+  /// What makes a program draw surfaces of a material for a view: its channels, textures, effects and shadows.
+  gl::Defines surface_defines(const View& view, int material) const;
+
   /// What the camera sees where the scene is not, and depth that keeps triangles off pixels without a ray.
   void draw_background(const View& view);
 
@@ -51,6 +54,10 @@ class Technique {
 
   /// True when a colour pass may have as many samples per pixel as the driver has; false when it has one.
   virtual bool multisamples() const = 0;
+
+  /// True when it draws a view without outputs: the target's depth alone, near_depth over distance, or, for flat
+  /// cameras, over distance ahead. Where the camera has no ray such a depth says nothing.
+  virtual bool draws_depth() const { return false; }
 
   /// Draws into a target that holds view.outputs, is of the view's size and has one sample. Marks its stages in
   /// tools.timer.

@@ -16,14 +16,14 @@ struct View {
   glm::dmat4 worldFromCamera;
   PixelRect tile;                      ///< of the camera's image
   glm::dvec2 shift{0.0};               ///< where in its pixel this pass samples, from the centre, pixels
-  std::span<const Channel> outputs{};  ///< {color}, or channels other than color
+  std::span<const Channel> outputs{};  ///< {color}, channels other than color, or none: depth
   int samples = 1;                     ///< per pixel in this pass, as far as the technique multisamples
   std::span<const Effect> effects{};   ///< on color
   Filter filter = Filter::anisotropic;
   int face_size = 0;
   PieceOptions pieces{};
 
-  bool labels() const { return outputs.front() != Channel::color; }
+  bool labels() const { return outputs.empty() || outputs.front() != Channel::color; }
   bool anisotropic() const { return filter == Filter::anisotropic; }
   ImageSize size() const { return {tile.width(), tile.height()}; }
   /// What is added to gl_FragCoord to get a pixel of the image.

@@ -22,6 +22,7 @@ class Nonlinear : public Technique {
   Nonlinear(DrawTools& tools, std::unique_ptr<BoundDrawer> drawer)
       : tools_(tools), exact_(tools), drawer_(std::move(drawer)) {}
   bool multisamples() const override { return true; }
+  bool draws_depth() const override { return true; }
   void scene_changed() override { drawer_->scene_changed(); }
   size_t buffer_bytes() const override { return drawer_->buffer_bytes(); }
 

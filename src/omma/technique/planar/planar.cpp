@@ -12,6 +12,7 @@ class Planar : public Technique {
  public:
   explicit Planar(DrawTools& tools) : tools_(tools) {}
   bool multisamples() const override { return true; }
+  bool draws_depth() const override { return true; }
 
   void draw(const View& view, const Target& target) override {
     const Lens& lens = *view.camera.lens();

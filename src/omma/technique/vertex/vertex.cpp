@@ -11,6 +11,7 @@ class Vertex : public Technique {
  public:
   explicit Vertex(DrawTools& tools) : tools_(tools) {}
   bool multisamples() const override { return true; }
+  bool draws_depth() const override { return true; }
 
   void draw(const View& view, const Target& target) override {
     gl::Defines defines = camera_defines(view.camera);
