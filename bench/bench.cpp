@@ -8,6 +8,7 @@
 #include "bench/effects.h"
 #include "bench/image_based.h"
 #include "bench/piecewise.h"
+#include "bench/visibility.h"
 
 namespace omma::bench {
 namespace {
@@ -17,6 +18,8 @@ constexpr Benchmark list[] = {
      run_image_based},
     {"piecewise", "perspective pieces against the cube map and a planar picture; growth with pieces and triangles",
      run_piecewise},
+    {"visibility", "the tree of rays that finds the visible triangles against Embree; growth with triangles",
+     run_visibility},
     {"effects", "how evenly lines and strokes come out over the image, by technique", run_effects},
 };
 

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "omma/base/error.h"
+#include "omma/scene/coverage.h"
 
 namespace omma {
 namespace {

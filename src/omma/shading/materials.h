@@ -35,7 +35,4 @@ class Materials {
   size_t bytes_ = 0;
 };
 
-/// A blended material's coverage from which labels and distances take it for solid.
-inline constexpr float label_alpha_cutoff = 0.5f;
-
 }  // namespace omma

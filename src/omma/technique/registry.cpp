@@ -10,13 +10,14 @@
 #include "omma/technique/planar/planar.h"
 #include "omma/technique/raycast/raycast.h"
 #include "omma/technique/vertex/vertex.h"
+#include "omma/technique/visibility/visibility.h"
 
 namespace omma {
 namespace {
 
 const TechniqueEntry* const entries[] = {
-    &planar_technique,    &image_based_technique, &vertex_technique,
-    &piecewise_technique, &nonlinear_technique,   &raycast_technique,
+    &planar_technique,    &image_based_technique, &vertex_technique,  &piecewise_technique,
+    &nonlinear_technique, &visibility_technique,  &raycast_technique,
 };
 
 /// Throws CommandError for a name or variant that does not exist.

@@ -120,4 +120,19 @@ void Resolver::draw_surfaces(const View& view) {
   tools_.counters.end();
 }
 
+// Layer by layer from the farthest. A pixel with fewer surfaces than its neighbour joins in at the nearer layers.
+void Resolver::draw_layers(const View& view, const std::vector<std::vector<RayHit>>& surfaces) {
+  size_t layers = 0;
+  for (const auto& along_ray : surfaces) layers = std::max(layers, along_ray.size());
+  VisibleTriangles visible{view.size(), std::vector<glm::uvec2>(surfaces.size())};
+  for (size_t layer = layers; layer-- > 0;) {
+    for (size_t i = 0; i < surfaces.size(); ++i) {
+      visible.hits[i] = layer < surfaces[i].size()
+                            ? glm::uvec2(surfaces[i][layer].triangle, surfaces[i][layer].instance)
+                            : glm::uvec2(VisibleTriangles::nothing);
+    }
+    draw_over(view, visible);
+  }
+}
+
 }  // namespace omma

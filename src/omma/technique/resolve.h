@@ -4,6 +4,7 @@
 
 #include "omma/technique/technique.h"
 #include "omma/technique/visible_squares.h"
+#include "omma/visibility/ray_hit.h"
 
 namespace omma {
 
@@ -15,6 +16,8 @@ class Resolver {
   void draw(const View& view, const VisibleTriangles& visible);
   /// Lays surfaces over what is there by their coverage.
   void draw_over(const View& view, const VisibleTriangles& visible);
+  /// The blended surfaces of each pixel, nearest first, over what is there.
+  void draw_layers(const View& view, const std::vector<std::vector<RayHit>>& surfaces);
 
   size_t bytes() const { return pixels_.bytes() + triangles_.bytes() + records_.bytes(); }
 

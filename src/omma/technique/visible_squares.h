@@ -11,14 +11,15 @@
 
 #include "omma/math/ray.h"
 #include "omma/scene/scene.h"
+#include "omma/visibility/ray_hit.h"
 
 namespace omma {
 
 /// Which triangle each pixel's ray meets first. Rows from the top.
 struct VisibleTriangles {
-  static constexpr uint32_t nothing = 0xffffffffu;
+  static constexpr uint32_t nothing = meets_nothing;
   /// As an instance: where there is no ray either.
-  static constexpr uint32_t no_ray = 0xfffffffeu;
+  static constexpr uint32_t no_ray = omma::no_ray;
 
   ImageSize size;
   std::vector<glm::uvec2> hits;  ///< x: the triangle's id or `nothing`, y: its instance, `nothing` or `no_ray`

@@ -1,28 +1,15 @@
 // The scene for Embree: one tree per mesh, instances of them, ray by ray tests for facing and for holes.
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "omma/scene/scene.h"
+#include "omma/visibility/ray_hit.h"
 
 namespace omma {
-
-/// A triangle on a ray.
-struct RayHit {
-  uint32_t triangle;  ///< id over all instances
-  uint32_t instance;
-  float distance;  ///< metres, the ray's direction being of unit length
-};
-
-/// Which surfaces stop a ray.
-enum class Solid {
-  opaque,  ///< those that are not blended; the blended ones are passed
-  labels,  ///< blended ones too, where they cover at least half
-};
 
 class EmbreeScene {
  public:

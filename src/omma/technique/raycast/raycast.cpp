@@ -1,15 +1,16 @@
 #include "omma/technique/raycast/raycast.h"
 
-#include <algorithm>
-#include <map>
-#include <optional>
-
 #include "omma/camera/ray_bundle.h"
+#include "omma/technique/pass_cache.h"
 #include "omma/technique/raycast/embree_scene.h"
 #include "omma/technique/resolve.h"
 
 namespace omma {
 namespace {
+
+RayMap make_rays(const Camera& camera, const PixelRect& tile, const glm::dvec2& shift) {
+  return rays_of(camera, tile, shift);
+}
 
 class Raycast : public Technique {
  public:
@@ -20,7 +21,7 @@ class Raycast : public Technique {
 
   void draw(const View& view, const Target& target) override {
     tools_.timer.mark("trace");
-    const RayMap& rays = rays_for(view);
+    const RayMap& rays = rays_.get(view, make_rays);
     const std::span<const glm::vec3> at_centre;
     std::vector<RayHit> hits(rays.directions.size());
     trees_.set_view(view.worldFromCamera);
@@ -37,46 +38,15 @@ class Raycast : public Technique {
     resolver_.draw(view, visible);
     if (!view.labels() && trees_.has_blending()) {
       tools_.timer.mark("blend");
-      draw_blended(view, trees_.blended(at_centre, rays.directions, hits));
+      resolver_.draw_layers(view, trees_.blended(at_centre, rays.directions, hits));
     }
   }
 
  private:
-  /// Rays take longer to compute than to trace, and a sequence asks for the same ones again and again.
-  const RayMap& rays_for(const View& view) {
-    constexpr size_t kept = 16;
-    if (rays_camera_ != view.camera || rays_tile_ != view.tile || rays_.size() >= kept) {
-      rays_.clear();
-      rays_camera_ = view.camera;
-      rays_tile_ = view.tile;
-    }
-    const std::pair shift(view.shift.x, view.shift.y);
-    const auto found = rays_.find(shift);
-    if (found != rays_.end()) return found->second;
-    return rays_.emplace(shift, rays_of(view.camera, view.tile, view.shift)).first->second;
-  }
-
-  /// Layer by layer from the farthest. A pixel with fewer surfaces than its neighbour joins in at the nearer layers.
-  void draw_blended(const View& view, const std::vector<std::vector<RayHit>>& surfaces) {
-    size_t layers = 0;
-    for (const auto& along_ray : surfaces) layers = std::max(layers, along_ray.size());
-    VisibleTriangles visible{view.size(), std::vector<glm::uvec2>(surfaces.size())};
-    for (size_t layer = layers; layer-- > 0;) {
-      for (size_t i = 0; i < surfaces.size(); ++i) {
-        visible.hits[i] = layer < surfaces[i].size()
-                              ? glm::uvec2(surfaces[i][layer].triangle, surfaces[i][layer].instance)
-                              : glm::uvec2(VisibleTriangles::nothing);
-      }
-      resolver_.draw_over(view, visible);
-    }
-  }
-
   DrawTools& tools_;
   EmbreeScene trees_;
   Resolver resolver_;
-  std::optional<Camera> rays_camera_;
-  PixelRect rays_tile_;
-  std::map<std::pair<double, double>, RayMap> rays_;  ///< by the pass's shift
+  PassCache<RayMap> rays_;
 };
 
 }  // namespace

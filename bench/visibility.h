@@ -1,0 +1,10 @@
+// Finding the visible triangles: the cone tree against Embree on the same triangles and rays.
+#pragma once
+
+#include "bench/bench.h"
+
+namespace omma::bench {
+
+nlohmann::json run_visibility(const Options& options);
+
+}  // namespace omma::bench

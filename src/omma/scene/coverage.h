@@ -1,0 +1,17 @@
+// How much of a surface is there: alpha of a material at a point of a triangle, looked up on the CPU.
+#pragma once
+
+#include <cstdint>
+
+#include "omma/scene/scene.h"
+
+namespace omma {
+
+/// A blended surface is solid where it covers at least this much: in labels and distances, which cannot be blended.
+inline constexpr float label_alpha_cutoff = 0.5f;
+
+/// Base colour's alpha times the vertices' times the texture's finest level, bilinear; 0 to 1. `u` and `v` are the
+/// barycentric weights of the triangle's second and third corner.
+float coverage(const Scene& scene, const Mesh& mesh, uint32_t triangle, float u, float v);
+
+}  // namespace omma

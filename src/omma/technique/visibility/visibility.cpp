@@ -1,0 +1,71 @@
+#include "omma/technique/visibility/visibility.h"
+
+#include "omma/camera/ray_bundle.h"
+#include "omma/technique/pass_cache.h"
+#include "omma/technique/resolve.h"
+#include "omma/visibility/finder.h"
+
+namespace omma {
+namespace {
+
+RayTree make_tree(const Camera& camera, const PixelRect& tile, const glm::dvec2& shift) {
+  return RayTree(rays_of(camera, tile, shift));
+}
+
+class Visibility : public Technique {
+ public:
+  explicit Visibility(DrawTools& tools) : tools_(tools), finder_(tools.scene.scene()), resolver_(tools) {}
+  bool multisamples() const override { return false; }
+  void scene_changed() override {
+    tools_.timer.mark("refit");
+    finder_.update();
+  }
+
+  void draw(const View& view, const Target& target) override {
+    tools_.timer.mark("ray tree");
+    const RayTree& rays = rays_.get(view, make_tree);
+    tools_.timer.mark("find");
+    finder_.set_view(view.worldFromCamera);
+    VisibleTriangles visible{view.size(), {}};
+    visible.hits.resize(size_t(view.size().width) * size_t(view.size().height));
+    const bool layered = !view.labels() && finder_.has_blending();
+    std::vector<float> distances(layered ? visible.hits.size() : 0);
+    finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque, visible.hits, distances);
+
+    tools_.timer.mark("resolve");
+    target.begin();
+    resolver_.draw(view, visible);
+    if (layered) {
+      tools_.timer.mark("blend");
+      resolver_.draw_layers(view, finder_.blended(rays, distances));
+    }
+  }
+
+  size_t buffer_bytes() const override {
+    size_t sum = finder_.bytes() + resolver_.bytes();
+    rays_.each([&](const RayTree& rays) { sum += rays.bytes(); });
+    return sum;
+  }
+
+ private:
+  DrawTools& tools_;
+  Finder finder_;
+  Resolver resolver_;
+  PassCache<RayTree> rays_;
+};
+
+}  // namespace
+
+const TechniqueEntry visibility_technique{
+    {.name = "visibility",
+     .description =
+         "a tree of the camera's rays finds each pixel's triangle, a resolve pass shades it; exact for every "
+         "camera",
+     .exact = true,
+     .needs_project = false,
+     .variants = {{"cpu", "on the processor, with SIMD and all cores"}}},
+    [](DrawTools& tools, const std::string&) -> std::unique_ptr<Technique> {
+      return std::make_unique<Visibility>(tools);
+    }};
+
+}  // namespace omma

@@ -1,0 +1,11 @@
+// The exact technique for every camera: the camera's own rays, as a tree, find their triangles; the resolve pass shades
+// each visible pixel once.
+#pragma once
+
+#include "omma/technique/technique.h"
+
+namespace omma {
+
+extern const TechniqueEntry visibility_technique;
+
+}  // namespace omma

@@ -1,0 +1,54 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "omma/visibility/find_blocks.cpp"
+#define HWY_COMPILE_ALL_ATTAINABLE
+#include <hwy/foreach_target.h>
+// Highway wants its own headers after foreach_target.h.
+#include <hwy/highway.h>
+
+#include "omma/visibility/find_block-inl.h"
+#include "omma/visibility/find_blocks.h"
+
+#if HWY_ONCE
+#include <algorithm>
+
+#include "omma/base/error.h"
+#include "omma/base/names.h"
+
+namespace omma {
+namespace {
+
+/// Names and numbers of what is both compiled and at hand, the best first.
+std::vector<std::pair<std::string, int64_t>> targets_at_hand() {
+  static const std::vector<int64_t> targets = hwy::SupportedAndGeneratedTargets();  // before one is asked for
+  std::vector<std::pair<std::string, int64_t>> named;
+  for (const int64_t target : targets) named.emplace_back(hwy::TargetName(target), target);
+  return named;
+}
+
+}  // namespace
+
+HWY_EXPORT(find_blocks);
+
+void find_blocks(const BlockQuery& query, std::span<const RayBlock> blocks, const BlockSource& source,
+                 const BlockSink& sink) {
+  HWY_DYNAMIC_DISPATCH(find_blocks)(query, blocks, source, sink);
+}
+
+std::vector<std::string> simd_targets() {
+  std::vector<std::string> names;
+  for (const auto& [name, target] : targets_at_hand()) names.push_back(name);
+  return names;
+}
+
+void use_simd_target(const std::string& name) {
+  const auto targets = targets_at_hand();
+  const auto found = std::find_if(targets.begin(), targets.end(), [&](const auto& t) { return t.first == name; });
+  if (found == targets.end() && !name.empty()) {
+    throw CommandError("{}", unknown_name("SIMD target", name, simd_targets()));
+  }
+  hwy::SetSupportedTargetsForTest(name.empty() ? 0 : found->second);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace omma
+#endif

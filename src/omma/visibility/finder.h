@@ -1,0 +1,45 @@
+// Which triangle every ray of a camera meets first, on the CPU: a tree of cones over the camera's own rays against a
+// tree of boxes over clusters of triangles. Exact for every camera, formula or not, and needs no graphics driver.
+//
+// Coverage is the sign of three products of a ray with the planes through the camera's centre and a triangle's edges
+// (docs/conventions.md), so nothing is clipped and neighbours leave no gap. The nearest triangle wins; at the same
+// distance the one with the lower id.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "omma/scene/scene.h"
+#include "omma/visibility/placed_scene.h"
+#include "omma/visibility/ray_hit.h"
+#include "omma/visibility/ray_tree.h"
+
+namespace omma {
+
+class Finder {
+ public:
+  /// Sorts every mesh into clusters. The scene must outlive this object.
+  explicit Finder(const Scene& scene) : scene_(scene) {}
+
+  /// Follows the scene's moved instances and deformed vertices; nothing is sorted again. Call set_view afterwards.
+  void update() { scene_.update(); }
+  /// Makes everything relative to the camera.
+  void set_view(const glm::dmat4& worldFromCamera) { scene_.set_view(worldFromCamera); }
+
+  /// The nearest triangle of every ray, rows from the top: x its id over all instances, y its instance, both
+  /// meets_nothing where there is none; y is no_ray where there is no ray. `distances` is empty or as long: metres,
+  /// +inf where there is none. The result is the same, to the bit, on any number of threads.
+  void nearest(const RayTree& rays, Solid solid, std::span<glm::uvec2> triangles,
+               std::span<float> distances = {}) const;
+
+  /// All blended surfaces nearer than `distances` on each ray, nearest first.
+  std::vector<std::vector<RayHit>> blended(const RayTree& rays, std::span<const float> distances) const;
+
+  bool has_blending() const { return scene_.has_blending(); }
+  size_t bytes() const { return scene_.bytes(); }
+
+ private:
+  PlacedScene scene_;
+};
+
+}  // namespace omma
