@@ -50,4 +50,24 @@ ImageSize size_of(std::string_view option, const std::string& text) {
   return {side(parts[0]), side(parts[1])};
 }
 
+std::optional<glm::vec3> background_of(const std::string& text) {
+  if (text == "sky") return std::nullopt;
+  if (text.find(',') == std::string::npos) {
+    throw CommandError("--background '{}': sky, or linear r,g,b such as 0,0,0 is accepted", text);
+  }
+  const glm::dvec3 color = vector3_of("--background", text);
+  if (glm::any(glm::lessThan(color, glm::dvec3(0.0)))) {
+    throw CommandError("--background {}: light is not negative", text);
+  }
+  return glm::vec3(color);
+}
+
+void set_shadows(RenderOptions& options, const Text& kind, const Text& size) {
+  if (kind) options.shadows = shadows_from_name(*kind);
+  if (size) options.shadow_size = count_of("--shadow-size", *size, 16, max_image_side);
+  if (size && options.shadows == Shadows::off) {
+    throw CommandError("--shadow-size is the size of shadow maps; add --shadows paraboloid or --shadows cube");
+  }
+}
+
 }  // namespace omma::tool

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "omma/math/ray.h"
+#include "omma/technique/picture.h"
 
 namespace omma::tool {
 
@@ -20,5 +21,10 @@ glm::dvec2 vector2_of(std::string_view option, const std::string& text);
 glm::dvec3 vector3_of(std::string_view option, const std::string& text);
 /// `1600x1200`
 ImageSize size_of(std::string_view option, const std::string& text);
+
+/// `sky`, which is nothing, or linear `r,g,b`.
+std::optional<glm::vec3> background_of(const std::string& text);
+/// --shadows and --shadow-size.
+void set_shadows(RenderOptions& options, const Text& kind, const Text& size);
 
 }  // namespace omma::tool

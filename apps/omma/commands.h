@@ -12,6 +12,7 @@ struct ExitCode {
 };
 
 void add_render(CLI::App& tool);
+void add_probe(CLI::App& tool);
 void add_compare(CLI::App& tool);
 void add_camera(CLI::App& tool);
 void add_cameras(CLI::App& tool);

@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
       "4 this machine cannot do it.");
   tool.require_subcommand(1);
   omma::tool::add_render(tool);
+  omma::tool::add_probe(tool);
   omma::tool::add_compare(tool);
   omma::tool::add_camera(tool);
   omma::tool::add_cameras(tool);

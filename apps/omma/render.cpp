@@ -47,18 +47,6 @@ Filter filter_of(const std::string& text) {
   throw CommandError("{}", unknown_name("filter", text, names));
 }
 
-std::optional<glm::vec3> background_of(const std::string& text) {
-  if (text == "sky") return std::nullopt;
-  if (text.find(',') == std::string::npos) {
-    throw CommandError("--background '{}': sky, or linear r,g,b such as 0,0,0 is accepted", text);
-  }
-  const glm::dvec3 color = vector3_of("--background", text);
-  if (glm::any(glm::lessThan(color, glm::dvec3(0.0)))) {
-    throw CommandError("--background {}: light is not negative", text);
-  }
-  return glm::vec3(color);
-}
-
 RenderOptions render_options_of(const Options& options) {
   constexpr int most_samples = 1024;
   RenderOptions result;
@@ -71,11 +59,7 @@ RenderOptions render_options_of(const Options& options) {
   if (options.face_size) result.face_size = count_of("--face-size", *options.face_size, 1, max_image_side);
   if (options.tolerance) result.pieces.tolerance_px = number_of("--tolerance", *options.tolerance, 0.01, 100.0);
   if (options.pieces) result.pieces.count = count_of("--pieces", *options.pieces, 1, 1000000);
-  if (options.shadows) result.shadows = shadows_from_name(*options.shadows);
-  if (options.shadow_size) result.shadow_size = count_of("--shadow-size", *options.shadow_size, 16, max_image_side);
-  if (options.shadow_size && result.shadows == Shadows::off) {
-    throw CommandError("--shadow-size is the size of shadow maps; add --shadows paraboloid or --shadows cube");
-  }
+  set_shadows(result, options.shadows, options.shadow_size);
   if (options.tile) result.tile = count_of("--tile", *options.tile, 16, max_image_side);
   return result;
 }
