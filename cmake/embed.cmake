@@ -1,6 +1,6 @@
 # Writes the C++ source of shader_files.h. Run by embed_shaders.
 file(GLOB_RECURSE shaders RELATIVE ${SHADERS} ${SHADERS}/*)
-file(GLOB models RELATIVE ${MODELS} ${MODELS}/*.h)
+file(GLOB shared RELATIVE ${CAMERA} ${CAMERA}/models/*.h ${CAMERA}/bounds/bounding_shape.h)
 
 set(text "#include \"omma/gl/shader_files.h\"\n\nnamespace omma::gl {\n\nconst std::map<std::string_view, std::string_view>& shader_files() {\n  static const std::map<std::string_view, std::string_view> files{\n")
 macro(embed name path)
@@ -10,8 +10,8 @@ endmacro()
 foreach(name ${shaders})
   embed(${name} ${SHADERS}/${name})
 endforeach()
-foreach(name ${models})
-  embed(models/${name} ${MODELS}/${name})
+foreach(name ${shared})
+  embed(${name} ${CAMERA}/${name})
 endforeach()
 string(APPEND text "  };\n  return files;\n}\n\n}  // namespace omma::gl\n")
 file(WRITE ${OUTPUT} "${text}")

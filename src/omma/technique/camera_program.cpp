@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace omma {
 
@@ -27,6 +28,14 @@ void set_camera(const gl::Program& program, const View& view) {
   program.set("lens_focal", glm::vec2(lens->focal));
   program.set("lens_centre", glm::vec2(lens->centre));
   program.set("cameraFromLens", glm::mat3(lens->cameraFromLens));
+}
+
+void set_lens_bound(const gl::Program& program, const LensBound& bound) {
+  program.set("lens_bound.lines", static_cast<int>(bound.lines));
+  program.set("lens_bound.cosine", float(std::cos(bound.angle)));
+  program.set("lens_bound.radius", float(bound.radius));
+  program.set("lens_bound.margin", float(bound.margin));
+  program.set("lens_bound.within_half", int(bound.within_half));
 }
 
 void CameraTextures::bind(const Camera& camera) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "omma/camera/bounds/lens_bound.h"
 #include "omma/gl/objects.h"
 #include "omma/gl/program.h"
 #include "omma/technique/view.h"
@@ -17,6 +18,9 @@ gl::Defines camera_defines(const Camera& camera);
 
 /// Sets the camera and the view's tile. What is too large for uniforms is bound by CameraTextures.
 void set_camera(const gl::Program& program, const View& view);
+
+/// Sets `lens_bound`, which camera/bounds/bounding_shape.h takes.
+void set_lens_bound(const gl::Program& program, const LensBound& bound);
 
 /// Keeps the last camera's rays or pieces on the GPU and binds them, rays to unit 8, pieces to units 8, 12 and 13; does
 /// nothing for a lens.

@@ -53,11 +53,11 @@ class MeshDrawer {
   /// Draws into the bound framebuffer: opaque and masked materials first, then, for colour, blended ones from back to
   /// front by their triangles' centroids.
   void draw(const MeshPass& pass, const View& view);
-
- private:
+  /// Its two halves. Of labels all surfaces are solid.
   void draw_solid(const MeshPass& pass, const View& view);
   void draw_blended(const MeshPass& pass, const View& view);
 
+ private:
   DrawTools& tools_;
 };
 

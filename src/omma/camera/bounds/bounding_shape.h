@@ -48,6 +48,8 @@ struct BoundPolygon {
   int count;
 };
 
+// GLSL compilers inline every call: what is costly is called at one place in a loop.
+
 // Section 3.3.2: what lies ahead of the plane z = 0, three or four corners, or nothing.
 LENS_FUNCTION BoundPolygon clip_ahead(vec3 a, vec3 b, vec3 c) {
   vec3 corner[3];
@@ -69,10 +71,12 @@ LENS_FUNCTION BoundPolygon clip_ahead(vec3 a, vec3 b, vec3 c) {
 
 LENS_FUNCTION bool is_seen(LensBound bound, vec3 direction) { return direction.z >= bound.cosine * length(direction); }
 
-// The plane's point of a direction; of one that is not seen, the point of the border in its meridian.
-LENS_FUNCTION vec2 bounded_project(Params params, LensBound bound, vec3 direction) {
+// The plane's point of a direction; of one that is not seen the formula's where `formula` says so, else that of the
+// border in its meridian.
+LENS_FUNCTION vec2 bounded_project(Params params, LensBound bound, vec3 direction, bool formula) {
   vec2 plane;
-  if (is_seen(bound, direction) && LENS_PROJECT(params, direction, plane)) return plane;
+  bool valid = LENS_PROJECT(params, direction, plane);
+  if (formula || (valid && is_seen(bound, direction))) return plane;
   vec2 across = vec2(direction.x, direction.y);
   real rho = length(across);
   return rho > real(0.0) ? across * (bound.radius / rho) : vec2(bound.radius, real(0.0));
@@ -83,10 +87,6 @@ LENS_FUNCTION bool is_between(EdgeImage edge, vec3 direction) {
          dot(cross(direction, edge.to), edge.normal) >= real(0.0);
 }
 
-LENS_FUNCTION real bounded_radius(Params params, LensBound bound, vec3 direction) {
-  return length(bounded_project(params, bound, direction));
-}
-
 LENS_FUNCTION EdgeImage edge_image(Params params, LensBound bound, vec3 from, vec3 to) {
   EdgeImage edge;
   edge.from = from;
@@ -94,28 +94,35 @@ LENS_FUNCTION EdgeImage edge_image(Params params, LensBound bound, vec3 from, ve
   // By the difference: of a short edge the cross product of its ends keeps no digit.
   vec3 normal = cross(from, to - from);
   real size = length(normal);
-  edge.normal = size > real(0.0) ? normal / size : vec3(real(0.0));
-  edge.a = bounded_project(params, bound, from);
-  edge.b = bounded_project(params, bound, to);
-  edge.lines = LINES_STRAIGHT;
-  if (!(size > real(0.0))) return edge;
+  vec3 n = size > real(0.0) ? normal / size : vec3(real(0.0));
+  edge.normal = n;
+
+  // The points of the whole circle that lie nearest to the axis and farthest from it.
+  vec3 nearest = vec3(real(0.0), real(0.0), real(1.0)) - n * n.z;
+  bool level = dot(nearest, nearest) < real(1e-10);  // the angle from the axis is the same everywhere
+  bool passes_nearest = !level && is_between(edge, nearest);
+  bool passes_farthest = !level && is_between(edge, -nearest);
 
   // The closed forms hold where nothing lies near what the formula sends to infinity.
   real least = bound.lines == LINES_STRAIGHT ? bound.cosine : real(-0.9);
   bool finite = from.z >= least * length(from) && to.z >= least * length(to);
-  vec3 n = edge.normal;
-  // The points of the whole circle that lie nearest to the axis and farthest from it.
-  vec3 nearest = vec3(real(0.0), real(0.0), real(1.0)) - n * n.z;
-  bool level = dot(nearest, nearest) < real(1e-10);  // the angle from the axis is the same everywhere
-  bool passes_farthest = !level && is_between(edge, -nearest);
   bool closed = bound.lines < LINES_CONVEX && finite && (bound.lines != LINES_CIRCLES || !passes_farthest);
   edge.lines = closed ? bound.lines : max(bound.lines, LINES_CONVEX);
-  if (closed) {
-    // Not the border's points, but the formula's: those that closed forms are of.
-    LENS_PROJECT(params, from, edge.a);
-    LENS_PROJECT(params, to, edge.b);
-    return edge;
-  }
+
+  // Along an edge the angle from the axis falls up to the nearest point and grows from there.
+  vec3 places[4];
+  places[0] = from;
+  places[1] = to;
+  places[2] = passes_nearest ? nearest : from;
+  places[3] = passes_farthest ? -nearest : to;
+  vec2 images[4];
+  for (int i = 0; i < 4; ++i) images[i] = bounded_project(params, bound, places[i], closed);
+  edge.a = images[0];
+  edge.b = images[1];
+  real a_radius = length(edge.a), b_radius = length(edge.b);
+  edge.low = passes_nearest ? length(images[2]) : min(a_radius, b_radius);
+  edge.high = passes_farthest ? length(images[3]) : max(a_radius, b_radius);
+  if (!(size > real(0.0))) edge.lines = LINES_STRAIGHT;
 
   vec2 from_across = vec2(from.x, from.y), to_across = vec2(to.x, to.y);
   real from_rho = length(from_across), to_rho = length(to_across);
@@ -127,11 +134,6 @@ LENS_FUNCTION EdgeImage edge_image(Params params, LensBound bound, vec3 from, ve
   vec2 across = n.z >= real(0.0) ? vec2(difference.y, -difference.x) : vec2(-difference.y, difference.x);
   edge.middle = normalize(dot(edge.a_side, edge.b_side) > real(0.0) ? sum : across);
   edge.cos_half = dot(edge.middle, edge.a_side);
-
-  // Along an edge the angle from the axis falls up to the nearest point and grows from there.
-  real a_radius = length(edge.a), b_radius = length(edge.b);
-  edge.high = passes_farthest ? bounded_radius(params, bound, -nearest) : max(a_radius, b_radius);
-  edge.low = !level && is_between(edge, nearest) ? bounded_radius(params, bound, nearest) : min(a_radius, b_radius);
   return edge;
 }
 
@@ -209,11 +211,6 @@ LENS_FUNCTION real part_area(BoundPart part) {
   return real(0.5) * abs(twice);
 }
 
-LENS_FUNCTION vec4 edge_box(EdgeImage edge) {
-  return vec4(-edge_support(edge, vec2(real(-1.0), real(0.0))), -edge_support(edge, vec2(real(0.0), real(-1.0))),
-              edge_support(edge, vec2(real(1.0), real(0.0))), edge_support(edge, vec2(real(0.0), real(1.0))));
-}
-
 LENS_FUNCTION vec4 box_union(vec4 a, vec4 b) {
   return vec4(min(a.x, b.x), min(a.y, b.y), max(a.z, b.z), max(a.w, b.w));
 }
@@ -231,77 +228,64 @@ LENS_FUNCTION vec2 meeting_point(vec2 origin, vec2 u, real u_extent, vec2 v, rea
   return origin + vec2(u_beyond * v.y - v_beyond * u.y, v_beyond * u.x - u_beyond * v.x) / (u.x * v.y - u.y * v.x);
 }
 
-// Three lines parallel to the chords (section 3.3). No part where the chords' triangle is turned round, which is where
-// the curved one has an angle larger than pi.
-LENS_FUNCTION BoundPart three_lines(LensBound bound, EdgeImage edge[3], real turn) {
+// Extents along seven directions: the axes both ways, and those that a triangle's sides face.
+const int BOX_DIRECTIONS = 4;
+const int ALL_DIRECTIONS = 7;
+struct Extents {
+  vec2 along[ALL_DIRECTIONS];
+  real far[ALL_DIRECTIONS];
+  int count;  // those that are wanted: the first four or all
+};
+
+LENS_FUNCTION Extents no_extents(int count) {
+  Extents extents;
+  extents.count = count;
+  for (int k = 0; k < ALL_DIRECTIONS; ++k) {
+    extents.along[k] = vec2(real(0.0));
+    extents.far[k] = real(-1e30);
+  }
+  extents.along[0] = vec2(real(-1.0), real(0.0));
+  extents.along[1] = vec2(real(0.0), real(-1.0));
+  extents.along[2] = vec2(real(1.0), real(0.0));
+  extents.along[3] = vec2(real(0.0), real(1.0));
+  return extents;
+}
+
+LENS_FUNCTION Extents widened(Extents extents, EdgeImage edge) {
+  for (int k = 0; k < extents.count; ++k) {
+    extents.far[k] = max(extents.far[k], edge_support(edge, extents.along[k]));
+  }
+  return extents;
+}
+
+LENS_FUNCTION vec4 box_of(Extents extents) {
+  return vec4(-extents.far[0], -extents.far[1], extents.far[2], extents.far[3]);
+}
+
+// Three lines parallel to the chords of a triangle (section 3.3), where they make one: not where it is so thin that
+// roundings turn it round, nor where a tip lies so far out that rasterizers round it visibly.
+LENS_FUNCTION BoundPart three_lines(LensBound bound, Extents extents, vec2 corner[3], real turn) {
   BoundPart part = no_part();
-  vec2 outward[3];
-  real extent[3];
-  vec2 ab = edge[0].b - edge[0].a, ac = edge[2].a - edge[0].a;
-  if (!(turn * (ab.x * ac.y - ab.y * ac.x) > real(0.0))) return part;
   for (int i = 0; i < 3; ++i) {
-    vec2 chord = edge[i].b - edge[i].a;
-    outward[i] = normalize(vec2(chord.y, -chord.x) * turn);
-    extent[i] = bound.margin + max(max(edge_support(edge[0], outward[i]), edge_support(edge[1], outward[i])),
-                                   edge_support(edge[2], outward[i]));
+    int here = BOX_DIRECTIONS + i, before = BOX_DIRECTIONS + (i + 2) % 3;
+    vec2 u = extents.along[before], v = extents.along[here];
+    if (turn * (u.x * v.y - u.y * v.x) < real(1e-4)) return no_part();
+    vec2 place = meeting_point(corner[i], u, extents.far[before] + bound.margin, v, extents.far[here] + bound.margin);
+    if (max(abs(place.x), abs(place.y)) > real(16.0) * bound.radius) return no_part();
+    part.corner[i] = place;
   }
   part.corners = 3;
-  for (int i = 0; i < 3; ++i) {
-    int before = (i + 2) % 3;
-    vec2 u = outward[before], v = outward[i];
-    if (turn * (u.x * v.y - u.y * v.x) < real(1e-4)) return no_part();  // so thin that roundings turn it round
-    part.corner[i] = meeting_point(edge[i].a, u, extent[before], v, extent[i]);
-    vec2 place = part.corner[i];
-    // A tip so far out that rasterizers round it visibly.
-    if (max(abs(place.x), abs(place.y)) > real(16.0) * bound.radius) return no_part();
-  }
   return part;
 }
 
-// The chord's square length.
-LENS_FUNCTION real chord2(EdgeImage edge) { return dot(edge.b - edge.a, edge.b - edge.a); }
-
-// A triangle that is clipped already as one triangle or two, or as a box where that is smaller. `side`: a plane that
-// all parts have.
-LENS_FUNCTION BoundParts enclose_clipped(Params params, LensBound bound, vec3 a, vec3 b, vec3 c) {
-  EdgeImage edge[3];
-  edge[0] = edge_image(params, bound, a, b);
-  edge[1] = edge_image(params, bound, b, c);
-  edge[2] = edge_image(params, bound, c, a);
-  real turn = dot(cross(a, b - a), c) < real(0.0) ? real(-1.0) : real(1.0);
-  vec4 box = box_union(box_union(edge_box(edge[0]), edge_box(edge[1])), edge_box(edge[2]));
-  BoundParts parts;
-  parts.count = 1;
-  parts.part[0] = box_part(box_within(bound, box));
-  real area = part_area(parts.part[0]);
-  BoundPart whole = three_lines(bound, edge, turn);
-  if (whole.corners == 3) {
-    if (part_area(whole) <= area) parts.part[0] = whole;
-  } else {
-    // Split at the vertex that lies opposite to the longest chord: the one with the large angle (section 3.3.3).
-    int longest = 0;
-    if (chord2(edge[1]) > chord2(edge[longest])) longest = 1;
-    if (chord2(edge[2]) > chord2(edge[longest])) longest = 2;
-    vec3 from = edge[longest].from, to = edge[longest].to, apex = edge[(longest + 1) % 3].to;
-    vec3 middle = normalize(from) + normalize(to);
-    EdgeImage cut = edge_image(params, bound, middle, apex);
-    EdgeImage back = edge_image(params, bound, apex, middle);
-    EdgeImage first[3];
-    first[0] = edge_image(params, bound, from, middle);
-    first[1] = cut;
-    first[2] = edge[(longest + 2) % 3];
-    EdgeImage second[3];
-    second[0] = edge_image(params, bound, middle, to);
-    second[1] = edge[(longest + 1) % 3];
-    second[2] = back;
-    BoundPart one = three_lines(bound, first, turn), other = three_lines(bound, second, turn);
-    if (one.corners == 3 && other.corners == 3 && part_area(one) + part_area(other) <= area) {
-      parts.part[0] = one;
-      parts.part[1] = other;
-      parts.count = 2;
-    }
-  }
-  return parts;
+LENS_FUNCTION BoundPolygon polygon_of(vec3 a, vec3 b, vec3 c) {
+  BoundPolygon polygon;
+  polygon.at[0] = a;
+  polygon.at[1] = b;
+  polygon.at[2] = c;
+  polygon.at[3] = c;
+  polygon.count = 3;
+  return polygon;
 }
 
 // The whole border's box: of a triangle that encloses the direction opposite to the axis all of the border may be seen.
@@ -312,50 +296,84 @@ LENS_FUNCTION BoundPart border_part(LensBound bound) {
 // Section 3.4: one quad, the union of the edges' boxes; no corners where nothing is seen. Corners relative to the
 // lens's centre.
 LENS_FUNCTION BoundPart bounding_quad(Params params, LensBound bound, vec3 a, vec3 b, vec3 c) {
-  BoundPolygon polygon;
-  polygon.at[0] = a;
-  polygon.at[1] = b;
-  polygon.at[2] = c;
-  polygon.count = 3;
-  if (bound.within_half) {
-    polygon = clip_ahead(a, b, c);
-    if (polygon.count < 3) return no_part();
-  } else if (encloses_antipode(a, b, c)) {
-    return border_part(bound);
+  if (!bound.within_half && encloses_antipode(a, b, c)) return border_part(bound);
+  BoundPolygon polygon = polygon_of(a, b, c);
+  if (bound.within_half) polygon = clip_ahead(a, b, c);
+  if (polygon.count < 3) return no_part();
+  Extents extents = no_extents(BOX_DIRECTIONS);
+  for (int i = 0; i < polygon.count; ++i) {
+    EdgeImage edge = edge_image(params, bound, polygon.at[i], polygon.at[(i + 1) % polygon.count]);
+    extents = widened(extents, edge);
   }
-  vec4 box = edge_box(edge_image(params, bound, polygon.at[polygon.count - 1], polygon.at[0]));
-  for (int i = 1; i < polygon.count; ++i) {
-    box = box_union(box, edge_box(edge_image(params, bound, polygon.at[i - 1], polygon.at[i])));
-  }
-  return box_part(box_within(bound, box));
+  return box_part(box_within(bound, box_of(extents)));
 }
 
-// Section 3.3: up to four triangles, which may overlap.
+// Section 3.3: up to four triangles, which may overlap. A box instead, which is two, where that is smaller.
 LENS_FUNCTION BoundParts bounding_triangles(Params params, LensBound bound, vec3 a, vec3 b, vec3 c) {
   BoundParts parts;
-  BoundPolygon polygon;
-  polygon.count = 3;
-  if (bound.within_half) {
-    polygon = clip_ahead(a, b, c);
-  } else if (encloses_antipode(a, b, c)) {
+  parts.count = 0;
+  if (!bound.within_half && encloses_antipode(a, b, c)) {
     parts.part[0] = border_part(bound);
     parts.count = 1;
     return parts;
-  } else {
-    polygon.at[0] = a;
-    polygon.at[1] = b;
-    polygon.at[2] = c;
   }
-  parts.count = 0;
+  BoundPolygon polygon = polygon_of(a, b, c);
+  if (bound.within_half) polygon = clip_ahead(a, b, c);
   if (polygon.count < 3) return parts;
-  parts = enclose_clipped(params, bound, polygon.at[0], polygon.at[1], polygon.at[2]);
-  if (polygon.count == 3) return parts;
-  BoundParts others = enclose_clipped(params, bound, polygon.at[0], polygon.at[2], polygon.at[3]);
-  for (int i = 0; i < others.count; ++i) parts.part[parts.count++] = others.part[i];
+
+  // The triangles to enclose: the polygon's, then halves of those.
+  BoundPolygon todo[6];
+  todo[0] = polygon_of(polygon.at[0], polygon.at[1], polygon.at[2]);
+  todo[1] = polygon_of(polygon.at[0], polygon.at[2], polygon.at[3]);
+  int whole = polygon.count - 2, count = whole;
+  vec4 box = vec4(real(1e30), real(1e30), real(-1e30), real(-1e30));
   real area = real(0.0);
-  for (int i = 0; i < parts.count; ++i) area += part_area(parts.part[i]);
-  BoundPart quad = bounding_quad(params, bound, a, b, c);
-  if (part_area(quad) <= area) {
+  int triangles = 0;
+  for (int t = 0; t < count; ++t) {
+    vec3 corner[3];
+    vec2 image[3];
+    for (int i = 0; i < 3; ++i) corner[i] = todo[t].at[i];
+    real turn = dot(cross(corner[0], corner[1] - corner[0]), corner[2]) < real(0.0) ? real(-1.0) : real(1.0);
+    Extents extents = no_extents(ALL_DIRECTIONS);
+    EdgeImage edge[3];
+    for (int i = 0; i < todo[t].count; ++i) {
+      edge[i] = edge_image(params, bound, corner[i], corner[(i + 1) % 3]);
+      image[i] = edge[i].a;
+      vec2 chord = edge[i].b - edge[i].a;
+      extents.along[BOX_DIRECTIONS + i] =
+          dot(chord, chord) > real(0.0) ? normalize(vec2(chord.y, -chord.x) * turn) : vec2(real(1.0), real(0.0));
+    }
+    for (int i = 0; i < todo[t].count; ++i) extents = widened(extents, edge[i]);
+    vec4 own_box = box_of(extents);
+    if (t < whole) box = box_union(box, own_box);
+
+    vec2 ab = image[1] - image[0], ac = image[2] - image[0];
+    bool turned_round = !(turn * (ab.x * ac.y - ab.y * ac.x) > real(0.0));
+    if (turned_round && t < whole) {
+      // An angle is larger than pi: split at its vertex, which lies opposite to the longest chord (section 3.3.3).
+      int longest = 0;
+      vec2 chord;
+      real length2 = real(-1.0);
+      for (int i = 0; i < 3; ++i) {
+        chord = image[(i + 1) % 3] - image[i];
+        if (dot(chord, chord) > length2) longest = i;
+        length2 = max(length2, dot(chord, chord));
+      }
+      vec3 from = corner[longest], to = corner[(longest + 1) % 3], apex = corner[(longest + 2) % 3];
+      vec3 middle = normalize(from) + normalize(to);
+      todo[count++] = polygon_of(from, middle, apex);
+      todo[count++] = polygon_of(middle, to, apex);
+      continue;
+    }
+    BoundPart part = box_part(box_within(bound, own_box));
+    BoundPart lines = three_lines(bound, extents, image, turn);
+    if (!turned_round && lines.corners == 3 && part_area(lines) <= part_area(part)) part = lines;
+    area += part_area(part);
+    triangles += part.corners - 2;
+    parts.part[parts.count++] = part;
+  }
+  BoundPart quad = box_part(box_within(bound, box));
+  if (parts.count > 1 && (triangles > 4 || part_area(quad) <= area)) {
     parts.part[0] = quad;
     parts.count = 1;
   }

@@ -20,4 +20,9 @@ class BoundDrawer {
 /// Squares of the image under a tree of cones.
 std::unique_ptr<BoundDrawer> make_hybrid_drawer(DrawTools& tools);
 
+/// The paper's shapes around each triangle's image: up to four triangles, or one quad. Where a lens has no radial
+/// symmetry, and where there is none, squares as in hybrid.
+std::unique_ptr<BoundDrawer> make_triangle_drawer(DrawTools& tools);
+std::unique_ptr<BoundDrawer> make_quad_drawer(DrawTools& tools);
+
 }  // namespace omma

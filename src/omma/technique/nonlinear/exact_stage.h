@@ -17,9 +17,9 @@ class ExactStage {
   void set(const View& view);
 
   /// A pass with these stages before shaders/technique/nonlinear/exact.frag. They write EXACT_TRIANGLE, with
-  /// nearest_depth() as depth, for shapes that cover every pixel and sample in which a triangle is seen, each once; a
-  /// triangle that faces away (cull_sign) they leave out. They have the symbols and uniforms of the camera, NEAR and
-  /// `tile_size`. The view must outlive the pass.
+  /// nearest_depth() as depth, for shapes that cover every pixel and sample in which a triangle is seen, each once
+  /// where they blend; a triangle that faces away (cull_sign) they leave out. They have the symbols and uniforms of the
+  /// camera, NEAR and `tile_size`. The view must outlive the pass.
   MeshPass pass(const View& view, std::vector<gl::Stage> stages) const;
 
  private:

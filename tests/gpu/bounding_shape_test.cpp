@@ -1,0 +1,228 @@
+// Bounding shapes in GLSL, as technique nonlinear runs them, enclose what those in C++ are shown to enclose.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "omma/gl/context.h"
+#include "omma/gl/shader_files.h"
+#include "omma/math/pose.h"
+#include "omma/technique/camera_program.h"
+#include "tests/gpu/gpu_test.h"
+#include "tests/gpu/hand_made.h"
+#include "tests/unit/bounding_shape_cases.h"
+
+namespace omma {
+namespace {
+
+constexpr const char* body = R"glsl(
+layout(local_size_x = 64) in;
+uniform LensBound lens_bound;
+layout(std430, binding = 0) readonly buffer Triangles { vec4 corners[]; };
+struct Answer {
+  vec4 corners[10];  // two a texel: of the quad, then of the parts
+  ivec4 counts;      // of corners of each part
+  ivec4 quad_count;
+};
+layout(std430, binding = 1) writeonly buffer Answers { Answer answers[]; };
+
+vec3 optical(vec3 position) {
+  vec3 in_lens = position * cameraFromLens;
+  return vec3(in_lens.x, -in_lens.y, -in_lens.z);
+}
+
+void write(uint i, int at, BoundPart part) {
+  for (int k = 0; k < 2; ++k) {
+    answers[i].corners[at + k] = vec4(lens_centre + lens_focal * part.corner[2 * k],
+                                      lens_centre + lens_focal * part.corner[2 * k + 1]);
+  }
+}
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= uint(answers.length())) return;
+  vec3 a = optical(corners[3u * i].xyz), b = optical(corners[3u * i + 1u].xyz), c = optical(corners[3u * i + 2u].xyz);
+  BoundPart quad = bounding_quad(lens_params(), lens_bound, a, b, c);
+  write(i, 0, quad);
+  answers[i].quad_count = ivec4(quad.corners);
+  BoundParts parts = bounding_triangles(lens_params(), lens_bound, a, b, c);
+  ivec4 counts = ivec4(0);
+  for (int k = 0; k < parts.count; ++k) {
+    write(i, 2 + 2 * k, parts.part[k]);
+    counts[k] = parts.part[k].corners;
+  }
+  answers[i].counts = counts;
+}
+)glsl";
+
+struct Answer {
+  glm::vec4 corners[10];
+  glm::ivec4 counts, quad_count;
+
+  BoundingPart part(int at, int count) const {
+    BoundingPart part;
+    for (int k = 0; k < count; ++k) {
+      const glm::vec4 two = corners[at + k / 2];
+      part.corners.emplace_back(k % 2 == 0 ? glm::vec2(two.x, two.y) : glm::vec2(two.z, two.w));
+    }
+    return part;
+  }
+  std::vector<BoundingPart> shape(BoundingShape kind) const {
+    if (kind == BoundingShape::quad) return {part(0, quad_count.x)};
+    std::vector<BoundingPart> parts;
+    for (int k = 0; k < 4; ++k) {
+      if (counts[k] > 0) parts.push_back(part(2 + 2 * k, counts[k]));
+    }
+    return parts;
+  }
+};
+
+gl::Program link(const Camera& camera) {
+  const std::string text = gl::assemble_shader("common/camera.glsl", camera_defines(camera)) +
+                           std::string(gl::shader_files().at("bounds/bounding_shape.h")) + body;
+  const char* source = text.c_str();
+  gl::Program program = gl::Program::wrap(glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &source));
+  GLint linked = 0;
+  glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
+  std::string log(4096, '\0');
+  glGetProgramInfoLog(program.id(), GLsizei(log.size()), nullptr, log.data());
+  EXPECT_TRUE(linked) << log;
+  return program;
+}
+
+TEST(BoundingShapesInGlsl, EncloseEveryPointOfRandomTriangles) {
+  const gl::Context context;
+  constexpr size_t count = 500;
+  std::map<const LensModel*, gl::Program> programs;
+  size_t points = 0, outside = 0, other_corners = 0, shapes = 0;
+  RandomTriangles random;
+  for (const BoundedCamera& bounded : bounded_cameras()) {
+    // The calibrated ones' formulae are compared elsewhere, and their shapes are of the same kinds.
+    if (bounded.lens.model->info.group != std::string("radial")) continue;
+    const Camera camera(bounded.lens);
+    std::vector<std::array<glm::vec3, 3>> triangles(count);
+    std::vector<glm::vec4> corners;
+    for (auto& triangle : triangles) {
+      triangle = random.next();
+      for (const glm::vec3& corner : triangle) corners.emplace_back(corner, 0.0f);
+    }
+    gl::Program& program = programs[bounded.lens.model];
+    if (program.id() == 0) program = link(camera);
+    set_camera(program, {.camera = camera, .worldFromCamera = glm::dmat4(1.0), .tile = {}});
+    set_lens_bound(program, bounded.bound);
+    const gl::Buffer in{std::span<const glm::vec4>(corners)};
+    const gl::Buffer out(count * sizeof(Answer));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, in.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, out.id());
+    program.use();
+    glDispatchCompute(GLuint(count + 63) / 64, 1, 1);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    std::vector<Answer> answers(count);
+    glGetNamedBufferSubData(out.id(), 0, GLsizeiptr(out.bytes()), answers.data());
+    for (size_t i = 0; i < count; ++i) {
+      for (const BoundingShape kind : {BoundingShape::triangles, BoundingShape::quad}) {
+        const auto shape = answers[i].shape(kind);
+        ++shapes;
+        const auto in_cpp = bounding_parts(bounded.lens, bounded.bound, kind, triangles[i]);
+        if (kind == BoundingShape::triangles) other_corners += in_cpp.size() != shape.size();
+        for (const glm::dvec2& pixel : seen_points(bounded.lens, triangles[i])) {
+          ++points;
+          if (is_enclosed(pixel, shape)) continue;
+          if (++outside <= 3) {
+            ADD_FAILURE() << bounded.text << ": " << pixel.x << ", " << pixel.y << " of" << triangle_text(triangles[i])
+                          << " is outside";
+          }
+        }
+      }
+    }
+  }
+  std::cout << fmt::format("{} shapes, {} points, {} outside; {} shapes have another number of parts than in C++\n",
+                           shapes, points, outside, other_corners);
+  EXPECT_EQ(outside, 0u);
+  EXPECT_LT(other_corners, shapes / 100);
+  EXPECT_GT(points, shapes * 20);
+}
+
+class BoundingShapesTest : public GpuTest {};
+
+/// Walls all around of two triangles each, which reach behind the camera and enclose its poles, balls of small
+/// triangles, and a veil that may not be drawn twice.
+Scene make_surroundings() {
+  SceneMaker maker;
+  const int paint = maker.add(unlit({0.2f, 0.5f, 0.8f, 1.0f})), veil = maker.add([] {
+    Material material = unlit({0.9f, 0.4f, 0.1f, 0.5f});
+    material.alpha = Material::Alpha::blend;
+    material.double_sided = true;
+    return material;
+  }());
+  maker.scene().materials[size_t(paint)].double_sided = true;
+  const float r = 4.0f;
+  const auto wall = [&](const glm::vec3& normal, const glm::vec3& u, const glm::vec3& v) {
+    maker.place(maker.add(
+        make_quad(r * (normal - u - v), r * (normal + u - v), r * (normal + u + v), r * (normal - u + v), paint)));
+  };
+  const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  for (const float side : {-1.0f, 1.0f}) {
+    wall(side * x, y, z);
+    wall(side * y, z, x);
+    wall(side * z, x, y);
+  }
+  const int ball = maker.add(make_ball(1.0f, paint));
+  for (const glm::dvec3& at : {glm::dvec3(0.3, -0.2, -2.5), glm::dvec3(2.6, 0.4, 0.1), glm::dvec3(-0.5, 1.0, 2.7)}) {
+    maker.place(ball, translation(at));
+  }
+  maker.place(maker.add(make_pane(-1.2f, 0.9f, veil)));
+  maker.place(maker.add(make_ball(3.5f, veil)));
+  return maker.finish();
+}
+
+/// One camera of each kind that shapes tell apart, and two that have no shapes.
+std::vector<NamedCamera> cameras_of_each_kind() {
+  std::map<std::pair<Lines, bool>, NamedCamera> kinds;
+  for (const BoundedCamera& bounded : bounded_cameras()) {
+    if (bounded.lens.size.width > 321) continue;
+    kinds.emplace(std::pair(bounded.bound.lines, bounded.bound.within_half),
+                  NamedCamera{bounded.text, Camera(bounded.lens)});
+  }
+  std::vector<NamedCamera> cameras{{"panorama", make_camera("equirectangular", ImageSize{160, 80})},
+                                   {"ray map", wavy_ray_map(96)}};
+  for (const auto& [kind, camera] : kinds) cameras.push_back(camera);
+  return cameras;
+}
+
+/// Fragments decide what is seen, so a shape that encloses its triangle changes nothing: not one pixel. But at the
+/// border of what the camera sees, where a sample without a ray goes with its pixel's centre.
+TEST_F(BoundingShapesTest, DrawTheSamePictureAsHybrid) {
+  const Scene scene = make_surroundings();
+  const glm::dmat4 pose = look_at_worldFromCamera({0.1, 0.2, 0.3}, {0.0, 0.1, -3.0});
+  renderer().load(scene);
+  size_t compared = 0, cameras = 0;
+  for (const auto& [name, camera] : cameras_of_each_kind()) {
+    RenderOptions options{.technique = "nonlinear:hybrid"};
+    const auto expected = draw(camera, pose, {Channel::color, Channel::id}, options);
+    for (const char* variant : {"triangle", "quad"}) {
+      options.technique = std::string("nonlinear:") + variant;
+      const auto drawn = draw(camera, pose, {Channel::color, Channel::id}, options);
+      EXPECT_EQ(std::get<IntImage>(drawn.at(Channel::id)).values, std::get<IntImage>(expected.at(Channel::id)).values)
+          << name << ", " << variant;
+      const auto& a = std::get<FloatImage>(drawn.at(Channel::color));
+      const auto& b = std::get<FloatImage>(expected.at(Channel::color));
+      size_t differences = 0;
+      for (int y = 0; y < a.size.height; ++y) {
+        for (int x = 0; x < a.size.width; ++x) {
+          bool whole = true;
+          for (int k = 0; k < 4; ++k) whole = whole && camera.unproject({x + k % 2, y + k / 2}).has_value();
+          if (!whole) continue;
+          ++compared;
+          for (int c = 0; c < 3; ++c) differences += a.at(x, y)[c] != b.at(x, y)[c];
+        }
+      }
+      EXPECT_EQ(differences, 0u) << name << ", " << variant;
+    }
+    ++cameras;
+  }
+  std::cout << fmt::format("{} cameras, {} pixels\n", cameras, compared);
+  EXPECT_GT(compared, 100'000u);
+}
+
+}  // namespace
+}  // namespace omma
