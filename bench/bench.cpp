@@ -7,6 +7,7 @@
 
 #include "bench/effects.h"
 #include "bench/image_based.h"
+#include "bench/nonlinear.h"
 #include "bench/piecewise.h"
 #include "bench/visibility.h"
 
@@ -20,6 +21,8 @@ constexpr Benchmark list[] = {
      run_piecewise},
     {"visibility", "the tree of rays that finds the visible triangles against Embree; growth with triangles",
      run_visibility},
+    {"nonlinear", "bounding shapes and hybrid against cubes, hemicubes and a planar picture; where the time goes",
+     run_nonlinear},
     {"effects", "how evenly lines and strokes come out over the image, by technique", run_effects},
 };
 

@@ -59,7 +59,7 @@ std::vector<std::string> technique_names() {
 std::vector<std::string> distinct_technique_names() {
   std::vector<std::string> names = technique_names();
   std::erase_if(names, [](const std::string& name) {
-    // PiecewiseTest.VariantsDrawTheSamePicture, BoundingShapesTest.DrawTheSamePictureAsHybrid
+    // PiecewiseTest.VariantsDrawTheSamePicture, BoundingShapesTest.DrawWhatRaysMeet
     return (name.starts_with("piecewise:") && name != "piecewise:compute") ||
            (name.starts_with("nonlinear:") && name != "nonlinear:hybrid");
   });

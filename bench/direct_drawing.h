@@ -1,0 +1,56 @@
+// Drawing without a Renderer, for what pictures have no name for: depth alone, several cameras as one frame, a pipeline
+// that stops half way.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "omma/technique/shadow/shadow_maps.h"
+#include "omma/technique/technique.h"
+
+namespace omma::bench {
+
+/// What one camera adds to a frame.
+struct Pass {
+  Camera camera;
+  glm::dmat4 worldFromCamera;
+  std::string technique;  ///< `name:variant`
+};
+
+enum class Output { color, depth, coverage };  ///< coverage: one label a pixel, nothing shaded
+
+struct Work {
+  Output output = Output::color;
+  bool rasterizes = true;  ///< false: what comes before the rasterizer alone
+};
+
+struct Measured {
+  double ms = 0.0;  ///< from the first command until the GPU is done
+  gl::Counts counts;
+};
+
+class DirectDrawing {
+ public:
+  /// Opens a GL context of its own. The scene must outlive this.
+  explicit DirectDrawing(const Scene& scene);
+
+  /// Draws the passes one after another, one sample a pixel, textures trilinear. `shadowed`: lights shine past
+  /// paraboloid maps, which are drawn before the clock starts.
+  Measured draw(std::span<const Pass> passes, const Work& work, bool shadowed = false);
+
+ private:
+  const Target& target(ImageSize size, Output output);
+
+  gl::Context context_;
+  GpuScene scene_;
+  DrawTools tools_;
+  ShadowMaps shadows_;
+  std::map<std::string, std::unique_ptr<Technique>> techniques_;
+  std::map<std::tuple<int, int, Output>, Target> targets_;
+};
+
+}  // namespace omma::bench
