@@ -46,6 +46,14 @@ effect contours:interval_m=40,color=a04020 terrain panini:fov_deg=140
 effect checker:size_m=2 city equidistant:fov_deg=180,fit=diagonal
 effect brick:length_m=1,height_m=0.4,mortar_m=0.06 city cylinder:fov_deg=200
 
+# Shadows and reflections, for docs/shadows.md and docs/reflections.md.
+./dev render room --camera equidistant:fov_deg=170,fit=diagonal --size 480x360 --samples 16 --shadows paraboloid \
+  --from -0.2,2.2,0.6 --to 0.1,0.6,-1.5 -o docs/images/shadows_room.png
+./dev render city --camera panini:fov_deg=130 --size 480x360 --samples 16 --shadows cube --shadow-size 4096 \
+  --from -10,30,-40 --to 0,3,0 -o docs/images/shadows_city.png
+./dev render room --camera perspective:fov_deg=40 --to 0.1,1.1,-1.5 --size 480x360 --samples 16 --reflect ring \
+  --shadows paraboloid -o docs/images/reflections.png
+
 # Pieces and triangles, for docs/pieces.md; the camera texture's offsets are made here.
 ./dev render city --camera cylinder:fov_deg=360 --pieces 32 --technique piecewise --show edges --show pieces \
   --size 720x540 --samples 16 -o docs/images/pieces_cylinder.png

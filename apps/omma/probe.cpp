@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 /// As typed.
 struct ProbeCommand {
-  std::string scene, technique = "auto";
+  std::string scene, technique = "visibility";
   Text at, normal, points, vertices, size, max_distance, offset, background, shadows, shadow_size, time, output;
   bool json = false;
 };
@@ -142,7 +142,7 @@ void add_probe(CLI::App& tool) {
   const char* how = "How";
   add(how, "--size", "N", options->size, "Pixels along each hemisphere's picture, 8 to 4096, default 64");
   add(how, "--max-distance", "METRES", options->max_distance, "Beyond it nothing occludes, default no limit");
-  add(how, "--technique", "T[:VARIANT]", options->technique, "How to draw, default auto (see 'omma techniques')");
+  add(how, "--technique", "T[:VARIANT]", options->technique, "How to draw, default visibility (see 'omma techniques')");
   add(how, "--background", "sky|R,G,B", options->background,
       "Radiance where nothing is: a sky (default) or linear RGB");
   add(how, "--shadows", "KIND", options->shadows, "Lights cast shadows: paraboloid or cube maps, default off");

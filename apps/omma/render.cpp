@@ -15,6 +15,7 @@
 #include "omma/base/numbered_name.h"
 #include "omma/camera/deformation/deformation.h"
 #include "omma/image/write.h"
+#include "omma/scene/object.h"
 #include "omma/technique/registry.h"
 #include "omma/technique/renderer.h"
 #include "outputs.h"
@@ -30,7 +31,8 @@ namespace fs = std::filesystem;
 /// As typed.
 struct Options {
   std::string scene, camera, technique = "auto";
-  Text size, samples, filter, background, face_size, tile, tolerance, pieces, shadows, shadow_size, stats;
+  Text size, samples, filter, background, face_size, tile, tolerance, pieces, shadows, shadow_size, reflect,
+      reflection_size, stats;
   ViewOptions view;
   std::vector<std::string> outputs, effects, show;
   bool overwrite = false;
@@ -60,6 +62,10 @@ RenderOptions render_options_of(const Options& options) {
   if (options.tolerance) result.pieces.tolerance_px = number_of("--tolerance", *options.tolerance, 0.01, 100.0);
   if (options.pieces) result.pieces.count = count_of("--pieces", *options.pieces, 1, 1000000);
   set_shadows(result, options.shadows, options.shadow_size);
+  if (options.reflection_size) {
+    result.reflection_size = count_of("--reflection-size", *options.reflection_size, 16, max_image_side);
+    if (!options.reflect) throw CommandError("--reflection-size is for the object of --reflect, and none is given");
+  }
   if (options.tile) result.tile = count_of("--tile", *options.tile, 16, max_image_side);
   return result;
 }
@@ -74,6 +80,7 @@ class Job {
         render_options_(render_options_of(options)),
         view_(options.view),
         camera_(first_camera(options.camera, size_option(options), view_)),
+        reflect_(options.reflect),
         stats_path_(options.stats),
         overwrite_(options.overwrite) {
     if (stats_path_) require_writable(*stats_path_);
@@ -184,6 +191,7 @@ class Job {
     if (view_.names_time() && scene.animations.empty()) {
       warn(fmt::format("{}: has no animation, the time changes nothing", scene_text_));
     }
+    if (reflect_) render_options_.reflect = find_object(scene, *reflect_);
     view_.apply_time(scene, frames.front());
     if (const std::string choice = view_.unspoken_choice(scene); !choice.empty()) {
       fmt::print(stderr, "{}\n", choice);
@@ -242,6 +250,7 @@ class Job {
   RenderOptions render_options_;
   View view_;
   Camera camera_;
+  Text reflect_;  ///< the object that reflects
   std::optional<std::string> stats_path_;
   bool overwrite_;
 };
@@ -294,6 +303,10 @@ void add_render(CLI::App& tool) {
   add(picture, "--shadows", "KIND", options->shadows,
       "Lights cast shadows by paraboloid or cube maps of what they see, default off");
   add(picture, "--shadow-size", "N", options->shadow_size, "Texels along a shadow map, default 1024");
+  add(picture, "--reflect", "OBJECT", options->reflect,
+      "The object, by its node's name or its number, whose surfaces show what surrounds it");
+  add(picture, "--reflection-size", "N", options->reflection_size,
+      "Texels along each of the two maps of what surrounds it, default 512");
   command->add_option("--effect", options->effects, effect_help())
       ->type_name("EFFECT[:KEY=VALUE,…]")
       ->allow_extra_args(false)

@@ -11,7 +11,8 @@ layout(std140, binding = 0) uniform FrameBlock {
   mat4 worldFromCamera;
   vec4 ambient;     // linear radiance from everywhere
   vec4 background;  // linear; w is 0 for a sky
-  uvec4 counts;     // x: lights
+  uvec4 counts;     // x: lights; y: the object that reflects; z: the one that is hidden
+  vec4 reflection;  // of its maps: focal length and size in texels, last level
 } frame;
 
 layout(binding = 15) uniform samplerBuffer light_texels;

@@ -6,6 +6,9 @@
 #ifdef SHADOWS
 #include "shading/shadow.glsl"
 #endif
+#ifdef REFLECTION
+#include "shading/reflection.glsl"
+#endif
 #ifdef EFFECTS
 #include "shading/effects.glsl"
 #endif
@@ -30,8 +33,11 @@ vec4 surface_color(Surface surface) {
   return color;
 }
 
-// True where a masked material has a hole.
+// True where a masked material has a hole, and all over the object that is hidden.
 bool surface_is_hole(Surface surface) {
+#ifdef HIDDEN_OBJECT
+  if (surface.object == int(frame.counts.z)) return true;
+#endif
 #ifdef ALPHA_MASK
   return surface_color(surface).a < material.parameters.z;
 #else
@@ -121,7 +127,16 @@ vec4 lit(Surface surface, vec4 base) {
 
   // Light from everywhere: more from above than from below, and a soft reflection for metals.
   float up = dot(normal, transpose(mat3(frame.worldFromCamera))[1]);
-  vec3 radiance = emitted + frame.ambient.rgb * (0.75 + 0.25 * up) * (diffuse + f0);
+  vec3 ambient = frame.ambient.rgb * (0.75 + 0.25 * up);
+  vec3 radiance = emitted + ambient * (diffuse + f0);
+#ifdef REFLECTION
+  // A rough surface shows less of the brightening at grazing angles (Lagarde 2011).
+  if (surface.object == int(frame.counts.y)) {
+    float grazing = 1.0 - n_v, grazing2 = grazing * grazing;
+    vec3 fresnel = f0 + (max(vec3(1.0 - roughness), f0) - f0) * (grazing2 * grazing2 * grazing);
+    radiance = emitted + ambient * diffuse + fresnel * surroundings_along(reflect(-view, normal), alpha);
+  }
+#endif
   for (uint i = 0u; i < frame.counts.x; ++i) {
     vec3 light;
     vec3 irradiance = incoming_light(light_of(i), surface.position, light);

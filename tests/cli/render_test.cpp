@@ -75,6 +75,27 @@ TEST_F(RenderCommand, ShadowsDarkenAndTakeTheirTime) {
   EXPECT_EQ(temple({"-o", "a.png", "--shadows", "cube", "--shadow-size", "8"}).exit_code, 2);
 }
 
+TEST_F(RenderCommand, AnObjectReflects) {
+  const auto room = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{
+        "render", "room",           "--size", "32x24", "--samples", "1", "--camera", "perspective:fov_deg=20",
+        "--to",   "0.78,0.88,-1.25"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  ASSERT_EQ(room({"-o", "off.exr"}).exit_code, 0);
+  ASSERT_EQ(room({"-o", "on.exr", "--reflect", "ring", "--reflection-size", "64", "--stats", "s.json"}).exit_code, 0);
+  EXPECT_NE(read_file(file("off.exr")), read_file(file("on.exr")));
+  const auto json = nlohmann::json::parse(read_file(file("s.json")));
+  EXPECT_GT(json["frames"][0]["stages_ms"]["reflection maps"], 0.0);
+  ToolResult refused = room({"-o", "a.png", "--reflect", "rings"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("did you mean 'ring'"), std::string::npos) << refused.err;
+  refused = room({"-o", "a.png", "--reflection-size", "64"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--reflect"), std::string::npos) << refused.err;
+}
+
 TEST_F(RenderCommand, StatsHoldWhatItTook) {
   ASSERT_EQ(run(render({"-o", "a.png", "--stats", "stats.json", "--technique", "raycast"})).exit_code, 0);
   const auto json = nlohmann::json::parse(read_file(file("stats.json")));

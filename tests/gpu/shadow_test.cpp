@@ -277,7 +277,8 @@ TEST_F(ShadowTest, AreTheSameInEveryTechniqueThatIsExactThere) {
 }
 
 TEST_F(ShadowTest, RefuseSizesThatMakeNoMap) {
-  renderer().load(make_seam());
+  const Scene scene = make_seam();
+  renderer().load(scene);
   const Camera camera = make_camera("perspective", ImageSize{16, 16});
   EXPECT_THROW(draw_color(camera, glm::dmat4(1.0), {.shadows = Shadows::cube, .shadow_size = 8}), CommandError);
   EXPECT_THROW(draw_color(camera, glm::dmat4(1.0), {.shadows = Shadows::cube, .shadow_size = 1 << 20}), MachineError);

@@ -22,6 +22,8 @@ gl::Defines DrawTools::surface_defines(const View& view, int material) const {
   defines.merge(scene.materials().defines(material, view.anisotropic(), view.labels()));
   defines.merge(effect_defines(view.effects));
   if (scene.has_shadows() && !view.labels()) defines["SHADOWS"] = "1";
+  if (scene.reflects(material) && !view.labels()) defines["REFLECTION"] = "1";
+  if (scene.hides()) defines["HIDDEN_OBJECT"] = "1";
   return defines;
 }
 

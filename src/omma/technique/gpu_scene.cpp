@@ -31,6 +31,7 @@ struct FrameBlock {
   glm::mat4 worldFromCamera;
   glm::vec4 ambient, background;
   glm::uvec4 counts;
+  glm::vec4 reflection;
 };
 
 /// The octahedral map to two signed 16-bit numbers; zero becomes +Z. Inverse of unpack_direction in
@@ -168,6 +169,13 @@ std::vector<Light> GpuScene::lights() const {
   return scene_->lights.empty() ? std::vector<Light>{default_sun()} : scene_->lights;
 }
 
+bool GpuScene::reflects(int material) const {
+  if (reflection_ == nullptr) return false;
+  return std::any_of(scene_->instances.begin(), scene_->instances.end(), [&](const Instance& instance) {
+    return instance.object == reflection_->object && scene_->meshes[size_t(instance.mesh)].material == material;
+  });
+}
+
 void GpuScene::upload_vertices(size_t m) {
   const Mesh& mesh = scene_->meshes[m];
   std::vector<glm::uvec4> packed(mesh.positions.size());
@@ -225,9 +233,14 @@ void GpuScene::set_view(const glm::dmat4& worldFromCamera, const std::optional<g
   light_texels_.write(std::span<const LightRecord>(lights));
   light_texels_.write(std::span<const MapRecord>(maps), lights.size() * sizeof(LightRecord));
 
-  const FrameBlock frame{glm::mat4(worldFromCamera), glm::vec4(scene_->ambient, 0.0f),
-                         background ? glm::vec4(*background, 1.0f) : glm::vec4(0.0f),
-                         glm::uvec4(lights.size(), 0, 0, 0)};
+  FrameBlock frame{glm::mat4(worldFromCamera), glm::vec4(scene_->ambient, 0.0f),
+                   background ? glm::vec4(*background, 1.0f) : glm::vec4(0.0f), glm::uvec4(lights.size(), 0, 0, 0),
+                   glm::vec4(0.0f)};
+  if (reflection_ != nullptr) {
+    frame.counts.y = uint32_t(reflection_->object);
+    frame.reflection = {reflection_->focal, reflection_->size, reflection_->last_level, 0.0f};
+  }
+  if (hidden_) frame.counts.z = uint32_t(*hidden_);
   frame_.write(std::span<const FrameBlock>(&frame, 1));
 }
 
@@ -236,6 +249,10 @@ void GpuScene::bind() const {
   instance_texels_.bind(14);
   light_texels_.bind(15);
   if (shadows_ != nullptr) shadows_->maps.bind(26);
+  if (reflection_ != nullptr) {
+    reflection_->maps.bind(27);
+    glBindSampler(27, 0);
+  }
 }
 
 void GpuScene::bind_vertex_textures() const {

@@ -37,6 +37,14 @@ struct ShadowTable {
   gl::Texture maps;                 ///< depths, a layer each
 };
 
+/// What one object is surrounded by: two stereographic maps around its middle, along the world's -Z and +Z.
+struct ReflectionTable {
+  int object = 0;
+  gl::Texture maps;
+  float focal = 1.0f, size = 1.0f;  ///< texels
+  float last_level = 0.0f;
+};
+
 class GpuScene {
  public:
   GpuScene(const Scene& scene, const gl::Context& context);
@@ -48,7 +56,15 @@ class GpuScene {
   /// Lights cast shadows by these maps from the next set_view on; null: none does. The table must outlive its use.
   void set_shadows(const ShadowTable* shadows) { shadows_ = shadows; }
   bool has_shadows() const { return shadows_ != nullptr; }
-  /// Binds uniform block 0, instances and lights as buffer textures (units 14, 15), and shadow maps (unit 26).
+  /// From the next set_view on an object shows what surrounds it; null: none does. The table must outlive its use.
+  void set_reflection(const ReflectionTable* reflection) { reflection_ = reflection; }
+  /// True where surfaces of a material may belong to the object that reflects.
+  bool reflects(int material) const;
+  /// From the next set_view on rasterizing techniques leave an object out.
+  void set_hidden(std::optional<int> object) { hidden_ = object; }
+  bool hides() const { return hidden_.has_value(); }
+  /// Binds uniform block 0, instances and lights as buffer textures (units 14, 15), shadow and reflection maps (26,
+  /// 27).
   void bind() const;
   /// Binds the vertices as buffer textures for whoever fetches them by number (units 5, 6, 7, 9).
   void bind_vertex_textures() const;
@@ -77,6 +93,8 @@ class GpuScene {
   gl::Buffer positions_, attributes_, colors_, indices_, part_records_, instances_, frame_;
   gl::Texels light_texels_{GL_RGBA32F};
   const ShadowTable* shadows_ = nullptr;
+  const ReflectionTable* reflection_ = nullptr;
+  std::optional<int> hidden_;
   gl::Texture position_texels_, attribute_texels_, color_texels_, triangle_texels_, instance_texels_;
   gl::VertexArray vertex_array_;
   glm::dmat4 worldFromCamera_{1.0};

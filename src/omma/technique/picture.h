@@ -48,7 +48,9 @@ struct RenderOptions {
   std::set<Show> show{};          ///< over colour
   std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
   Shadows shadows = Shadows::off;
-  int shadow_size = 1024;  ///< texels along a shadow map, 16 or more
+  int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
+  std::optional<int> reflect{};  ///< the object whose surfaces show what surrounds it
+  int reflection_size = 512;     ///< texels along each of its two maps, 16 or more
 };
 
 /// The effects asked for, then those that show something. Throws CommandError for a chain that check_effects refuses.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "omma/base/error.h"
+#include "omma/technique/reflection/reflection_maps.h"
 #include "omma/technique/registry.h"
 #include "omma/technique/shadow/shadow_maps.h"
 #include "omma/technique/technique.h"
@@ -80,6 +81,7 @@ struct Renderer::Parts {
   std::unique_ptr<DrawTools> tools;
   std::map<std::string, std::unique_ptr<Technique>> techniques;
   std::unique_ptr<ShadowMaps> shadow_maps;
+  std::unique_ptr<ReflectionMaps> reflection_maps;
   Target target;
 
   /// Objects are deleted in the context that is current, which may be another renderer's.
@@ -94,6 +96,15 @@ struct Renderer::Parts {
   const Target& target_for(ImageSize size, std::span<const Channel> outputs) {
     if (!target.fits(size, outputs, 1)) target = Target(size, outputs);
     return target;
+  }
+
+  /// Milliseconds that all stages of `draw` took.
+  double timed(const std::function<void()>& draw) {
+    tools->timer.finish();
+    draw();
+    double sum = 0.0;
+    for (const auto& [stage, ms] : tools->timer.finish()) sum += ms;
+    return sum;
   }
 
   Image draw_color(Technique& technique, View view, const Passes& passes, std::span<const Effect> effects,
@@ -180,11 +191,13 @@ void Renderer::load(const Scene& scene) {
   parts.context.make_current();
   parts.techniques.clear();
   parts.shadow_maps.reset();
+  parts.reflection_maps.reset();
   parts.tools.reset();
   parts.scene = &scene;
   parts.gpu_scene = std::make_unique<GpuScene>(scene, parts.context);
   parts.tools = std::unique_ptr<DrawTools>(new DrawTools{parts.context, *parts.gpu_scene});
   parts.shadow_maps = std::make_unique<ShadowMaps>(*parts.tools, *parts.gpu_scene);
+  parts.reflection_maps = std::make_unique<ReflectionMaps>(*parts.tools, *parts.gpu_scene);
 }
 
 void Renderer::update() {
@@ -193,6 +206,7 @@ void Renderer::update() {
   parts_->gpu_scene->update();
   for (auto& [name, technique] : parts_->techniques) technique->scene_changed();
   parts_->shadow_maps->scene_changed();
+  parts_->reflection_maps->scene_changed();
 }
 
 std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4& worldFromCamera,
@@ -205,17 +219,17 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
     throw CommandError("{} samples per pixel; 1 to {} are possible", options.samples, max_samples);
   }
   if (options.tile < 0 || options.face_size < 0) throw CommandError("a tile or face size cannot be negative");
-  if (options.shadow_size < 16)
-    throw CommandError("a shadow map of {} texels; 16 or more make one", options.shadow_size);
+  if (std::min(options.shadow_size, options.reflection_size) < 16) {
+    throw CommandError("a shadow or reflection map of {} texels; 16 or more make one",
+                       std::min(options.shadow_size, options.reflection_size));
+  }
   const ChosenTechnique chosen = choose_technique(options.technique, camera);
   const std::vector<Effect> effects = effects_of(options);
   parts.context.make_current();
   const gl::Limits& limits = parts.context.limits();
   Technique& technique = parts.technique(chosen);
-  parts.tools->timer.finish();
-  parts.shadow_maps->use(options.shadows, options.shadow_size);
-  double shadow_ms = 0.0;
-  for (const auto& [stage, ms] : parts.tools->timer.finish()) shadow_ms += ms;
+  const double shadow_ms = parts.timed([&] { parts.shadow_maps->use(options.shadows, options.shadow_size); });
+  const double reflection_ms = parts.timed([&] { parts.reflection_maps->use(options); });
   parts.gpu_scene->set_view(worldFromCamera, options.background);
 
   const int most = std::min(limits.texture_size, limits.viewport_size);
@@ -247,10 +261,11 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
     stats->fragments_shaded = counts.fragments;
     stats->samples_kept = counts.samples;
     stats->buffer_bytes = parts.gpu_scene->bytes() + parts.target.bytes() + parts.tools->multisample_target.bytes() +
-                          technique.buffer_bytes() + parts.shadow_maps->bytes();
+                          technique.buffer_bytes() + parts.shadow_maps->bytes() + parts.reflection_maps->bytes();
     stats->tiles = int(tiles.size());
     stats->passes = pictures.contains(Channel::color) ? int(passes.shifts.size()) : 0;
     stats->stage_ms = std::move(stages);
+    if (options.reflect) stats->stage_ms.insert(stats->stage_ms.begin(), {"reflection maps", reflection_ms});
     if (options.shadows != Shadows::off) stats->stage_ms.insert(stats->stage_ms.begin(), {"shadow maps", shadow_ms});
     technique.report(*stats);
   }
