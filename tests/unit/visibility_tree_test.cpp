@@ -1,11 +1,12 @@
-// Trees of boxes and of a mesh's triangles: complete, tight, and refitted as if they were built anew.
+// Bodies and their trees of boxes: complete, tight, and refitted when vertices move.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
-#include "omma/visibility/mesh_tree.h"
+#include "omma/visibility/bodies.h"
 
 namespace omma {
 namespace {
@@ -26,25 +27,32 @@ Mesh random_mesh(size_t triangles, unsigned seed) {
   return mesh;
 }
 
+Scene scene_of(Mesh mesh) {
+  Scene scene;
+  scene.materials.emplace_back();
+  scene.meshes.push_back(std::move(mesh));
+  return scene;
+}
+
 /// Every node's boxes hold what is below them; returns how often each triangle of the mesh was met.
-std::vector<int> check(const MeshTree& tree, const Mesh& mesh) {
+std::vector<int> check(const Body& body, const Mesh& mesh) {
   std::vector<int> met(mesh.triangles.size());
   size_t outside = 0;
   std::vector<std::pair<uint32_t, Box>> open;
-  if (!tree.tree().nodes.empty()) open.emplace_back(0, tree.bounds());
+  if (!body.tree.nodes.empty()) open.emplace_back(0, body.bounds);
   while (!open.empty()) {
     const auto [number, around] = open.back();
     open.pop_back();
-    const BoxNode& node = tree.tree().nodes[number];
+    const BoxNode& node = body.tree.nodes[number];
     EXPECT_GE(node.count, 1u);
     for (uint32_t lane = 0; lane < node.count; ++lane) {
       if (!(node.child[lane] & BoxNode::leaf)) {
         open.emplace_back(node.child[lane], node.box(lane));
         continue;
       }
-      const uint32_t leaf = node.child[lane] & ~BoxNode::leaf;
-      const Cluster& cluster = tree.clusters()[leaf];
-      for (uint32_t t = 0; t < tree.tree().leaves[leaf].count; ++t) {
+      const Cluster& cluster = body.clusters[node.child[lane] & ~BoxNode::leaf];
+      for (uint32_t t = 0; t < Cluster::size; ++t) {
+        if (cluster.triangle[t] == Cluster::unused) continue;
         ++met[cluster.triangle[t]];
         for (int c = 0; c < 3; ++c) {
           const glm::vec3 p = mesh.positions[mesh.triangles[cluster.triangle[t]][c]];
@@ -58,38 +66,90 @@ std::vector<int> check(const MeshTree& tree, const Mesh& mesh) {
   return met;
 }
 
-TEST(MeshTreeTest, HoldsEveryTriangleOnceWithinItsBoxes) {
+TEST(BodyTest, HoldsEveryTriangleOnceWithinItsBoxes) {
   for (const size_t count : {0, 1, 15, 16, 17, 100, 257, 20000}) {
-    const Mesh mesh = random_mesh(count, 3);
-    const MeshTree tree(mesh);
-    const std::vector<int> met = check(tree, mesh);
+    const Scene scene = scene_of(random_mesh(count, 3));
+    const std::vector<int> met = check(Body(scene, {0}), scene.meshes[0]);
     EXPECT_TRUE(std::all_of(met.begin(), met.end(), [](int times) { return times == 1; })) << count;
-    // Lanes are not wasted.
-    EXPECT_LE(tree.clusters().size(), count / 16 + 1 + count / 64);
   }
 }
 
-TEST(MeshTreeTest, PutsUpWithTrianglesAtOnePlaceAndWithHugeOnes) {
+TEST(BodyTest, WastesNoLanesOnASurface) {
+  constexpr uint32_t side = 100;
+  Mesh mesh;
+  for (uint32_t y = 0; y <= side; ++y) {
+    for (uint32_t x = 0; x <= side; ++x) {
+      mesh.positions.emplace_back(x, y, std::sin(0.1f * float(x)) * std::cos(0.15f * float(y)));
+      const uint32_t corner = y * (side + 1) + x;
+      if (x == side || y == side) continue;
+      mesh.triangles.emplace_back(corner, corner + 1, corner + side + 2);
+      mesh.triangles.emplace_back(corner, corner + side + 2, corner + side + 1);
+    }
+  }
+  EXPECT_LT(make_clusters(mesh).size(), 2 * side * side / 16 * 5 / 4);
+}
+
+TEST(BodyTest, PutsUpWithTrianglesAtOnePlaceAndWithHugeOnes) {
   Mesh mesh = random_mesh(1000, 5);
   for (size_t i = 0; i < 1500; ++i) mesh.positions[i] = glm::vec3(1, 2, 3);
   mesh.positions[2000] = glm::vec3(3e38f);
   mesh.positions[2300] = glm::vec3(-3e38f);
   mesh.positions[2600] = glm::vec3(std::numeric_limits<float>::infinity());
   mesh.positions[2900] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
-  const std::vector<int> met = check(MeshTree(mesh), mesh);
+  const Scene scene = scene_of(mesh);
+  const std::vector<int> met = check(Body(scene, {0}), mesh);
   for (size_t t = 0; t < met.size(); ++t) EXPECT_EQ(met[t], t != 2600 / 3 && t != 2900 / 3) << t;
 }
 
-TEST(MeshTreeTest, FollowsDeformation) {
-  Mesh mesh = random_mesh(3000, 7);
-  MeshTree tree(mesh);
+TEST(BodyTest, FollowsDeformation) {
+  Scene scene = scene_of(random_mesh(3000, 7));
+  Mesh& mesh = scene.meshes[0];
+  Body body(scene, {0});
   for (glm::vec3& p : mesh.positions) p = glm::vec3(p.y * 2.0f, p.x - 100.0f, p.z * p.z * 0.01f);
-  tree.refit(mesh);
-  const std::vector<int> met = check(tree, mesh);
+  body.refit(scene);
+  const std::vector<int> met = check(body, mesh);
   EXPECT_TRUE(std::all_of(met.begin(), met.end(), [](int times) { return times == 1; }));
-  const MeshTree fresh(mesh);
-  EXPECT_EQ(tree.bounds().min, fresh.bounds().min);
-  EXPECT_EQ(tree.bounds().max, fresh.bounds().max);
+}
+
+/// Two meshes that stand once each, one that stands twice.
+Scene four_instances() {
+  Scene scene;
+  scene.materials.emplace_back();
+  for (unsigned m = 0; m < 3; ++m) scene.meshes.push_back(random_mesh(50, m));
+  for (const int mesh : {0, 1, 2, 2}) {
+    scene.nodes.emplace_back();
+    Instance instance;
+    instance.mesh = mesh;
+    instance.node = instance.object = int(scene.instances.size());
+    scene.instances.push_back(instance);
+  }
+  finish_scene(scene);
+  return scene;
+}
+
+TEST(BodiesTest, WhatStandsTogetherIsOneBodyUntilItPartsWays) {
+  Scene scene = four_instances();
+  Bodies bodies(scene);
+  EXPECT_EQ(bodies.bodies().size(), 2u);      // the first two meshes, and the third
+  EXPECT_EQ(bodies.placements().size(), 3u);  // the third twice
+  const auto move = [](Instance& instance) { instance.worldFromObject[3].x += 1.0; };
+  move(scene.instances[0]);
+  move(scene.instances[1]);
+  bodies.update();
+  EXPECT_EQ(bodies.bodies().size(), 2u);
+  move(scene.instances[1]);
+  bodies.update();
+  EXPECT_EQ(bodies.bodies().size(), 3u);
+  EXPECT_EQ(bodies.placements().size(), 4u);
+  std::vector<int> placed(4);
+  for (const Placement& placement : bodies.placements()) {
+    ASSERT_EQ(placement.instances.size(), bodies.bodies()[placement.body].meshes.size());
+    for (size_t i = 0; i < placement.instances.size(); ++i) {
+      ++placed[placement.instances[i]];
+      EXPECT_EQ(scene.instances[placement.instances[i]].mesh, bodies.bodies()[placement.body].meshes[i]);
+    }
+  }
+  EXPECT_EQ(placed, std::vector<int>(4, 1));
 }
 
 }  // namespace

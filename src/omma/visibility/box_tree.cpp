@@ -53,6 +53,7 @@ struct Part {
 };
 
 constexpr int bins = 16;
+constexpr float gain = 0.5f;  ///< two leaves are better than one when their areas together are less than this share
 constexpr int depth_by_area = 40;  ///< deeper down parts are halved, which bounds the tree's depth
 constexpr uint32_t parallel_size = 4096;
 
@@ -67,10 +68,18 @@ class Builder {
     part->first = first;
     part->count = count;
     for (uint32_t i = first; i < first + count; ++i) part->box.add(boxes_[order_[i]]);
-    if (count <= leaf_size_) return part;
+    if (count == 1) return part;
     uint32_t left = 0;
-    if (depth < depth_by_area) left = count <= 8 * leaf_size_ ? sweep(first, count) : bin(first, count);
-    if (left == 0) left = halve(part->box, first, count);
+    if (count <= leaf_size_) {
+      left = sweep(first, count, 1, gain * part->box.half_area());
+      if (left == 0) return part;
+    } else {
+      if (depth < depth_by_area) {
+        left = count <= 8 * leaf_size_ ? sweep(first, count, leaf_size_, std::numeric_limits<float>::infinity())
+                                       : bin(first, count);
+      }
+      if (left == 0) left = halve(part->box, first, count);
+    }
     const auto split_left = [&] { part->left = split(first, left, depth + 1); };
     const auto split_right = [&] { part->right = split(first + left, count - left, depth + 1); };
     if (count > parallel_size) {
@@ -104,9 +113,8 @@ class Builder {
     return (count / 2 + leaf_size_ - 1) / leaf_size_ * leaf_size_;
   }
 
-  /// Tries every border between full leaves.
-  uint32_t sweep(uint32_t first, uint32_t count) {
-    float least = std::numeric_limits<float>::infinity();
+  /// Tries every `step`-th border; takes the best if it costs less than `least`.
+  uint32_t sweep(uint32_t first, uint32_t count, uint32_t step, float least) {
     int best_axis = -1;
     uint32_t best = 0;
     std::vector<Box> right(count + 1);
@@ -119,7 +127,7 @@ class Builder {
       Box left;
       for (uint32_t i = 1; i < count; ++i) {
         left.add(boxes_[order_[first + i - 1]]);
-        if (i % leaf_size_ != 0) continue;
+        if (i % step != 0) continue;
         const float c = cost(left, i) + cost(right[i], count - i);
         if (c < least) {
           least = c;

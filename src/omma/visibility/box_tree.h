@@ -34,7 +34,8 @@ struct alignas(64) BoxNode {
 
   float centre[3][width], half[3][width];
   uint32_t child[width];
-  uint32_t count;  ///< of children; the rest of the arrays is zero
+  uint32_t tag[width];  ///< of a leaf: for whoever built the tree
+  uint32_t count;       ///< of children; the rest of the arrays is zero
 
   /// Rounded outwards.
   void set_box(uint32_t lane, const Box& box);

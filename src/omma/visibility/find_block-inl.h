@@ -7,11 +7,14 @@
 #define OMMA_VISIBILITY_FIND_BLOCK_INL_H_
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <vector>
+
+#include <hwy/cache_control.h>
 
 #include "omma/scene/coverage.h"
 #include "omma/visibility/find_blocks.h"
@@ -27,10 +30,14 @@ constexpr float slack = 1e-5f;
 /// reliable plane: on which side the camera is, and how far the plane, is rounding.
 constexpr float edge_on = 1e-5f;
 
+/// What an approximate inverse square root may be off by, relatively, on any target; and what it may be taken of.
+constexpr float rough = 3e-3f;
+constexpr float smallest_square = 1e-36f;
+
 /// A child of a node that is still to be visited.
 struct Pending {
   const BoxNode* node;
-  const PlacedInstance* instance;  ///< the tree over instances has the scene's own frame
+  const PlacedBody* body;  ///< the tree over bodies has a frame of its own
   uint32_t lane;
   float near;  ///< metres, at most what any of its points is away
 };
@@ -70,33 +77,30 @@ class BlockFinder {
       if (next.near * farthest_of_block_ > 1.0f + slack) continue;
       const uint32_t child = next.node->child[next.lane];
       if (!(child & BoxNode::leaf)) {
-        push_children(next.instance->nodes[child], *next.instance);
-      } else if (next.instance->clusters != nullptr) {
-        visit_cluster(*next.node, next.lane, *next.instance, next.instance->clusters[child & ~BoxNode::leaf]);
+        push_children(next.body->nodes[child], *next.body);
+      } else if (next.body->clusters != nullptr) {
+        visit_cluster(*next.node, next.lane, *next.body, next.body->parts[next.node->tag[next.lane]],
+                      next.body->clusters[child & ~BoxNode::leaf]);
       } else {
-        const PlacedInstance& instance = query_.scene->instances()[child & ~BoxNode::leaf];
-        if (is_asked_for(instance)) push_children(instance.nodes[0], instance);
+        const PlacedBody& body = query_.scene->bodies()[child & ~BoxNode::leaf];
+        if (is_asked_for(body)) push_children(body.nodes[0], body);
       }
     }
   }
 
  private:
-  bool is_asked_for(const PlacedInstance& instance) const {
-    const bool blended = instance.alpha == Material::Alpha::blend;
-    if (query_.collect) return blended;
-    return !blended || query_.solid == Solid::labels;
+  bool is_asked_for(const PlacedBody& body) const {
+    return query_.collect ? body.blended : !body.blended || query_.solid == Solid::labels;
   }
 
   /// Nothing seen; rays that are none see the nearest thing there can be.
   void clear(int leaf) {
-    const Floats zero = all(0.0f);
-    const Mask none =
-        (load(block_->x[leaf]) == zero) & (load(block_->y[leaf]) == zero) & (load(block_->z[leaf]) == zero);
-    store(choose(none, all(std::numeric_limits<float>::infinity()), zero), picture_->inverse_distance[leaf]);
-    const Mask every = zero == zero;
-    store_where(every, meets_nothing, picture_->triangle[leaf]);
-    store_where(every, meets_nothing, picture_->instance[leaf]);
-    store_where(none, no_ray, picture_->instance[leaf]);
+    const Mask rays = from_bits(block_->rays[leaf]);
+    const float nearest = std::numeric_limits<float>::infinity();
+    store(choose(rays, all(0.0f), all(nearest)), picture_->inverse_distance[leaf]);
+    std::memset(picture_->triangle[leaf], 0xff, sizeof picture_->triangle[leaf]);
+    std::fill_n(picture_->instance[leaf], 16, no_ray);
+    store_where(rays, meets_nothing, picture_->instance[leaf]);
   }
 
   /// Boxes against cones, of which one side is the same sixteen times: false where no ray of the cone meets the box.
@@ -104,7 +108,7 @@ class BlockFinder {
   ///
   /// The plane that touches the cone on the side of the box's centre parts the two if the whole box is beyond it.
   static HWY_INLINE Mask may_meet(const Vectors& centre, const Vectors& half, const Vectors& axis, const Floats& sin,
-                                  const Floats& cos, const PlacedInstance& placed, Floats& near) {
+                                  const Floats& cos, const PlacedBody& placed, Floats& near) {
     const Vectors column[3] = {all(placed.columns[0].x, placed.columns[0].y, placed.columns[0].z),
                                all(placed.columns[1].x, placed.columns[1].y, placed.columns[1].z),
                                all(placed.columns[2].x, placed.columns[2].y, placed.columns[2].z)};
@@ -112,8 +116,11 @@ class BlockFinder {
     const Vectors c = transform(column, origin, centre);
     const Floats along = dot(c, axis);
     const Vectors across = c - axis * along;
-    const Floats height = max(sqrt(dot(across, across)), all(1e-30f));
-    const Vectors outwards = across * (cos / height) - axis * sin;
+    const Floats square = dot(across, across);
+    // Too small by a little, which tilts the plane away from the cone.
+    const Floats inverse_height = rough_inverse_sqrt(max(square, all(smallest_square))) * all(1.0f - rough);
+    const Floats height = square * inverse_height;
+    const Vectors outwards = across * (cos * inverse_height) - axis * sin;
     const Floats beyond = height * cos - along * sin;
     const Floats reach =
         mul_add(half.x, abs(dot(column[0], outwards)),
@@ -125,6 +132,11 @@ class BlockFinder {
     return beyond <= reach + room;
   }
 
+  static HWY_INLINE Floats length_or_more(const Vectors& v) {
+    const Floats square = max(dot(v, v), all(smallest_square));
+    return square * rough_inverse_sqrt(square) * all(1.0f + rough);
+  }
+
   static HWY_INLINE Vectors transform(const Vectors* column, const Vectors& origin, const Vectors& p) {
     return {mul_add(column[0].x, p.x, mul_add(column[1].x, p.y, mul_add(column[2].x, p.z, origin.x))),
             mul_add(column[0].y, p.x, mul_add(column[1].y, p.y, mul_add(column[2].y, p.z, origin.y))),
@@ -132,14 +144,13 @@ class BlockFinder {
   }
 
   /// Those that the block may see, the farthest first.
-  void push_children(const BoxNode& node, const PlacedInstance& instance) {
+  void push_children(const BoxNode& node, const PlacedBody& body) {
     const Cone& cone = block_->cone;
     alignas(64) float near[16];
     Floats near_v;
-    const Mask meets =
-        may_meet({load(node.centre[0]), load(node.centre[1]), load(node.centre[2])},
-                 {load(node.half[0]), load(node.half[1]), load(node.half[2])},
-                 all(cone.axis.x, cone.axis.y, cone.axis.z), all(cone.sin), all(cone.cos), instance, near_v);
+    const Mask meets = may_meet({load(node.centre[0]), load(node.centre[1]), load(node.centre[2])},
+                                {load(node.half[0]), load(node.half[1]), load(node.half[2])},
+                                all(cone.axis.x, cone.axis.y, cone.axis.z), all(cone.sin), all(cone.cos), body, near_v);
     const Mask before = near_v * all(farthest_of_block_) <= all(1.0f + slack);
     uint32_t left = bits(meets & before) & ((1u << node.count) - 1u);
     store(near_v, near);
@@ -148,28 +159,41 @@ class BlockFinder {
       const auto lane = uint32_t(std::countr_zero(left));
       size_t place = count_++;
       for (; place > first && pending_[place - 1].near < near[lane]; --place) pending_[place] = pending_[place - 1];
-      pending_[place] = {&node, &instance, lane, near[lane]};
+      pending_[place] = {&node, &body, lane, near[lane]};
+      prefetch(body, node.child[lane]);
     }
   }
 
-  void visit_cluster(const BoxNode& node, uint32_t lane, const PlacedInstance& instance, const Cluster& cluster) {
+  /// What is pending will be wanted soon, and large scenes lie far from the processor.
+  static void prefetch(const PlacedBody& body, uint32_t child) {
+    constexpr size_t line = 64;
+    const bool is_leaf = child & BoxNode::leaf;
+    if (is_leaf && body.clusters == nullptr) return;
+    const auto* from = is_leaf ? reinterpret_cast<const char*>(&body.clusters[child & ~BoxNode::leaf])
+                               : reinterpret_cast<const char*>(&body.nodes[child]);
+    const size_t size = is_leaf ? sizeof(Cluster) : sizeof(BoxNode);
+    for (size_t offset = 0; offset < size; offset += line) hwy::Prefetch(from + offset);
+  }
+
+  void visit_cluster(const BoxNode& node, uint32_t lane, const PlacedBody& body, const PlacedPart& part,
+                     const Cluster& cluster) {
     Floats near;
     const Vectors axis{load(block_->axis_x), load(block_->axis_y), load(block_->axis_z)};
     const Mask meets = may_meet(all(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]),
                                 all(node.half[0][lane], node.half[1][lane], node.half[2][lane]), axis,
-                                load(block_->sin), load(block_->cos), instance, near);
+                                load(block_->sin), load(block_->cos), body, near);
     const uint32_t leaves = bits(meets & (near * load(farthest_) <= all(1.0f + slack))) & block_->leaf_mask;
     if (leaves == 0) return;
-    if (instance.front != 0.0f) {
-      visit_triangles(turn(instance, cluster, instance.front), leaves, instance, cluster);
+    if (part.front != 0.0f) {
+      visit_triangles(turn(body, part, cluster), leaves, body, part, cluster);
     } else {
       // From the side where the camera is; and those that are seen edge-on from the other, too.
-      const uint32_t triangles = turn(instance, cluster, 0.0f);
-      visit_triangles(triangles, leaves, instance, cluster);
+      const uint32_t triangles = turn(body, part, cluster);
+      visit_triangles(triangles, leaves, body, part, cluster);
       const uint32_t unsure = triangles & turned_.by_weights;
       if (unsure != 0) {
         turn_round(unsure);
-        visit_triangles(unsure, leaves, instance, cluster);
+        visit_triangles(unsure, leaves, body, part, cluster);
       }
     }
     bool changed = false;
@@ -180,13 +204,14 @@ class BlockFinder {
     if (changed) farthest_of_block_ = least(load(farthest_));
   }
 
-  /// Returns the triangles that the block may see. `front` is the sign that rays' products have on the visible side,
-  /// 0 for the side where the camera is.
-  uint32_t turn(const PlacedInstance& instance, const Cluster& cluster, float front) {
-    const Vectors column[3] = {all(instance.columns[0].x, instance.columns[0].y, instance.columns[0].z),
-                               all(instance.columns[1].x, instance.columns[1].y, instance.columns[1].z),
-                               all(instance.columns[2].x, instance.columns[2].y, instance.columns[2].z)};
-    const Vectors origin = all(instance.origin.x, instance.origin.y, instance.origin.z);
+  /// Returns the triangles that the block may see: from the part's front, or, where both sides are seen, from where the
+  /// camera is.
+  uint32_t turn(const PlacedBody& body, const PlacedPart& part, const Cluster& cluster) {
+    const float front = part.front;
+    const Vectors column[3] = {all(body.columns[0].x, body.columns[0].y, body.columns[0].z),
+                               all(body.columns[1].x, body.columns[1].y, body.columns[1].z),
+                               all(body.columns[2].x, body.columns[2].y, body.columns[2].z)};
+    const Vectors origin = all(body.origin.x, body.origin.y, body.origin.z);
     Vectors corner[3];
     for (int i = 0; i < 3; ++i) {
       corner[i] = transform(column, origin,
@@ -212,7 +237,7 @@ class BlockFinder {
       const Vectors& q = corner[(i + 2) % 3];
       Vectors plane = cross(p + q, q - p);
       plane = {times_sign(plane.x, side), times_sign(plane.y, side), times_sign(plane.z, side)};
-      const Floats length = sqrt(dot(plane, plane));
+      const Floats length = length_or_more(plane);
       if (front != 0.0f)
         kept = kept & (dot(plane, axis) >= length * all(-cone.sin));
       else
@@ -224,8 +249,8 @@ class BlockFinder {
     }
     // Per metre only now: squares of metres need not fit.
     const Vectors scaled_depth = normal * (all(1.0f) / volume);
-    const Floats depth_length = sqrt(dot(scaled_depth, scaled_depth)) * all(instance.scale);
-    const Vectors depth = scaled_depth * all(instance.scale);
+    const Floats depth_length = length_or_more(scaled_depth) * all(body.scale);
+    const Vectors depth = scaled_depth * all(body.scale);
     const Floats most = mul_add(depth_length, all(cone.sin), abs(dot(depth, axis)));
     kept = kept & ((most * all(1.0f + slack) >= all(farthest_of_block_)) | unsure);
     store(depth.x, turned_.depth[0]);
@@ -234,7 +259,7 @@ class BlockFinder {
     store(depth_length, turned_.depth_length);
     turned_.by_weights = bits(unsure);
     const uint32_t triangles = bits(kept);
-    if ((triangles & turned_.by_weights) != 0 || instance.alpha != Material::Alpha::opaque) {
+    if ((triangles & turned_.by_weights) != 0 || part.alpha != Material::Alpha::opaque) {
       for (int i = 0; i < 3; ++i) {
         store(corner[i].x, turned_.corner[i][0]);
         store(corner[i].y, turned_.corner[i][1]);
@@ -253,7 +278,8 @@ class BlockFinder {
     }
   }
 
-  void visit_triangles(uint32_t triangles, uint32_t leaves, const PlacedInstance& instance, const Cluster& cluster) {
+  void visit_triangles(uint32_t triangles, uint32_t leaves, const PlacedBody& body, const PlacedPart& part,
+                       const Cluster& cluster) {
     if (triangles == 0) return;
     // Whichever are fewer, one after another against sixteen of the others.
     if (std::popcount(triangles) <= std::popcount(leaves)) {
@@ -267,7 +293,7 @@ class BlockFinder {
           kept = kept & (mul_add(all(turned_.edge_length[i][t]), sin, dot(plane, axis)) >= all(0.0f));
         }
         for (uint32_t left = bits(kept) & leaves; left != 0; left &= left - 1) {
-          visit_leaf(std::countr_zero(left), t, instance, cluster);
+          visit_leaf(std::countr_zero(left), t, body, part, cluster);
         }
       }
       return;
@@ -286,7 +312,7 @@ class BlockFinder {
         kept = kept & (mul_add(load(turned_.edge_length[i]), sin, dot(plane, axis)) >= all(0.0f));
       }
       for (uint32_t left = bits(kept) & triangles; left != 0; left &= left - 1) {
-        visit_leaf(leaf, std::countr_zero(left), instance, cluster);
+        visit_leaf(leaf, std::countr_zero(left), body, part, cluster);
       }
     }
   }
@@ -298,7 +324,7 @@ class BlockFinder {
     return mul_add(all(turned_.depth_length[t]), sin, abs(dot(depth, axis))) * all(1.0f + slack) >= load(farthest_);
   }
 
-  void visit_leaf(int leaf, int t, const PlacedInstance& instance, const Cluster& cluster) {
+  void visit_leaf(int leaf, int t, const PlacedBody& body, const PlacedPart& part, const Cluster& cluster) {
     const Vectors ray{load(block_->x[leaf]), load(block_->y[leaf]), load(block_->z[leaf])};
     const Floats zero = all(0.0f);
     Floats inside[3];
@@ -317,42 +343,41 @@ class BlockFinder {
       }
       // A triangle around the centre, in a plane through it, is met nowhere else: there, terms cancel but for rounding.
       hit = hit & (distance > terms * all(1e-6f));
-      inverse = (inside[0] + inside[1] + inside[2]) * all(instance.scale) / distance;
+      inverse = (inside[0] + inside[1] + inside[2]) * all(body.scale) / distance;
     } else {
       inverse = dot(all(turned_.depth[0][t], turned_.depth[1][t], turned_.depth[2][t]), ray);
     }
-    const uint32_t triangle = instance.first_triangle + cluster.triangle[t];
+    const uint32_t triangle = part.first_triangle + cluster.triangle[t];
     const Floats seen = load(picture_->inverse_distance[leaf]);
     Mask nearer = inverse > seen;
     if (!query_.collect) nearer = nearer | ((inverse == seen) & larger(picture_->triangle[leaf], triangle));
     hit = hit & nearer & (inverse > zero);
     uint32_t found = bits(hit);
     if (found == 0) return;
-    if (instance.alpha != Material::Alpha::opaque) {
+    if (part.alpha != Material::Alpha::opaque) {
       if (query_.collect) {
-        collect(leaf, t, found, triangle, instance, inside, inverse);
+        collect(leaf, t, found, triangle, part, inside, inverse);
         return;
       }
-      found = without_holes(found, cluster.triangle[t], instance, inside);
+      found = without_holes(found, cluster.triangle[t], part, inside);
       if (found == 0) return;
       hit = from_bits(found);
     }
     store_where(hit, inverse, picture_->inverse_distance[leaf]);
     store_where(hit, triangle, picture_->triangle[leaf]);
-    store_where(hit, instance.number, picture_->instance[leaf]);
+    store_where(hit, part.instance, picture_->instance[leaf]);
     dirty_ |= 1u << leaf;
   }
 
-  uint32_t without_holes(uint32_t found, uint32_t triangle, const PlacedInstance& instance,
-                         const Floats* inside) const {
+  uint32_t without_holes(uint32_t found, uint32_t triangle, const PlacedPart& part, const Floats* inside) const {
     alignas(64) float weight[3][16];
     for (int i = 0; i < 3; ++i) store(inside[i], weight[i]);
-    const float cutoff = instance.alpha == Material::Alpha::blend ? label_alpha_cutoff : instance.cutoff;
+    const float cutoff = part.alpha == Material::Alpha::blend ? label_alpha_cutoff : part.cutoff;
     for (uint32_t left = found; left != 0; left &= left - 1) {
       const int ray = std::countr_zero(left);
       const float sum = weight[0][ray] + weight[1][ray] + weight[2][ray];
       const float alpha =
-          coverage(query_.scene->scene(), *instance.mesh, triangle, weight[1][ray] / sum, weight[2][ray] / sum);
+          coverage(query_.scene->scene(), *part.mesh, triangle, weight[1][ray] / sum, weight[2][ray] / sum);
       if (!(alpha >= cutoff)) found &= ~(1u << ray);
     }
     return found;
@@ -366,7 +391,7 @@ class BlockFinder {
     return true;
   }
 
-  void collect(int leaf, int t, uint32_t found, uint32_t triangle, const PlacedInstance& instance, const Floats* inside,
+  void collect(int leaf, int t, uint32_t found, uint32_t triangle, const PlacedPart& part, const Floats* inside,
                const Floats& inverse) {
     alignas(64) float weight[3][16], near[16];
     for (int i = 0; i < 3; ++i) store(inside[i], weight[i]);
@@ -375,7 +400,7 @@ class BlockFinder {
       const int ray = std::countr_zero(found);
       bool owned = true;
       for (int i = 0; i < 3; ++i) owned = owned && (weight[i][ray] != 0.0f || owns(i, t));
-      if (owned) layers_->push_back({uint32_t(leaf), uint32_t(ray), {triangle, instance.number, 1.0f / near[ray]}});
+      if (owned) layers_->push_back({uint32_t(leaf), uint32_t(ray), {triangle, part.instance, 1.0f / near[ray]}});
     }
   }
 

@@ -11,17 +11,34 @@ namespace omma {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr size_t blocks_at_once = 8;
+constexpr size_t blocks_at_once = 16;
 
 /// Calls `each(leaf, ray, pixel)` for the rays of a block that lie within the image.
 template <typename Each>
 void each_pixel(const RayBlock& block, ImageSize size, const Each& each) {
+  const bool whole = block.pixel_x + RayBlock::side <= size.width && block.pixel_y + RayBlock::side <= size.height;
   for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
-    for (int ray = 0; ray < 16; ++ray) {
-      const int x = block.pixel_x + RayBlock::x_of(leaf, ray), y = block.pixel_y + RayBlock::y_of(leaf, ray);
-      if (x < size.width && y < size.height) each(leaf, ray, size_t(y) * size_t(size.width) + size_t(x));
+    const int x0 = block.pixel_x + RayBlock::x_of(leaf, 0), y0 = block.pixel_y + RayBlock::y_of(leaf, 0);
+    for (int row = 0; row < RayBlock::leaf_side; ++row) {
+      const size_t first = size_t(y0 + row) * size_t(size.width) + size_t(x0);
+      const int ray = row * RayBlock::leaf_side;
+      for (int i = 0; i < RayBlock::leaf_side; ++i) {
+        if (whole || (x0 + i < size.width && y0 + row < size.height)) each(leaf, ray + i, first + size_t(i));
+      }
     }
   }
+}
+
+/// Calls `each(first pixel, count)` for the rows of what the image has no rays in.
+template <typename Each>
+void each_blank_row(const RayTree& rays, const Each& each) {
+  const auto [width, height] = rays.size();
+  tbb::parallel_for(size_t{0}, rays.blank().size(), [&](size_t i) {
+    const glm::ivec2 corner = rays.blank()[i];
+    for (int y = corner.y; y < std::min(corner.y + RayBlock::side, height); ++y) {
+      each(size_t(y) * size_t(width) + size_t(corner.x), size_t(std::min(RayBlock::side, width - corner.x)));
+    }
+  });
 }
 
 void find(const RayTree& rays, const BlockQuery& query, const BlockSource& source, const BlockSink& sink) {
@@ -36,15 +53,17 @@ void find(const RayTree& rays, const BlockQuery& query, const BlockSource& sourc
 
 void Finder::nearest(const RayTree& rays, Solid solid, std::span<glm::uvec2> triangles,
                      std::span<float> distances) const {
-  std::fill(triangles.begin(), triangles.end(), glm::uvec2(meets_nothing, no_ray));
-  std::fill(distances.begin(), distances.end(), infinity);
+  each_blank_row(rays, [&](size_t first, size_t count) {
+    std::fill_n(&triangles[first], count, glm::uvec2(meets_nothing, no_ray));
+    if (!distances.empty()) std::fill_n(&distances[first], count, infinity);
+  });
   const BlockQuery query{.scene = &scene_, .solid = solid};
   find(rays, query, {}, [&](const RayBlock& block, const BlockPicture& picture, std::span<const BlockLayer>) {
     each_pixel(block, rays.size(), [&](int leaf, int ray, size_t pixel) {
       triangles[pixel] = {picture.triangle[leaf][ray], picture.instance[leaf][ray]};
-      if (!distances.empty() && picture.triangle[leaf][ray] != meets_nothing) {
-        distances[pixel] = 1.0f / picture.inverse_distance[leaf][ray];
-      }
+      if (distances.empty()) return;
+      const bool hit = picture.triangle[leaf][ray] != meets_nothing;
+      distances[pixel] = hit ? 1.0f / picture.inverse_distance[leaf][ray] : infinity;
     });
   });
 }
@@ -54,8 +73,7 @@ std::vector<std::vector<RayHit>> Finder::blended(const RayTree& rays, std::span<
   const auto limit = [&](const RayBlock& block, BlockPicture& picture) {
     std::fill_n(&picture.inverse_distance[0][0], RayBlock::leaves * 16, infinity);
     each_pixel(block, rays.size(), [&](int leaf, int ray, size_t pixel) {
-      const bool is_ray = block.x[leaf][ray] != 0.0f || block.y[leaf][ray] != 0.0f || block.z[leaf][ray] != 0.0f;
-      if (is_ray) picture.inverse_distance[leaf][ray] = 1.0f / distances[pixel];
+      if (block.rays[leaf] >> ray & 1) picture.inverse_distance[leaf][ray] = 1.0f / distances[pixel];
     });
   };
   const BlockQuery query{.scene = &scene_, .collect = true};

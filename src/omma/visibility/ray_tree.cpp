@@ -51,6 +51,7 @@ bool fill(const RayMap& rays, RayBlock& block) {
   ConeFitter whole;
   for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
     ConeFitter part;
+    block.rays[leaf] = 0;
     for (int ray = 0; ray < 16; ++ray) {
       const int x = block.pixel_x + RayBlock::x_of(leaf, ray), y = block.pixel_y + RayBlock::y_of(leaf, ray);
       const bool inside = x < rays.size.width && y < rays.size.height;
@@ -58,10 +59,11 @@ bool fill(const RayMap& rays, RayBlock& block) {
       block.x[leaf][ray] = d.x;
       block.y[leaf][ray] = d.y;
       block.z[leaf][ray] = d.z;
-      if (d != glm::vec3(0.0f)) block.leaf_mask |= 1u << leaf;
+      if (d != glm::vec3(0.0f)) block.rays[leaf] = uint16_t(block.rays[leaf] | 1u << ray);
       part.add(d);
       whole.add(d);
     }
+    if (block.rays[leaf] != 0) block.leaf_mask |= 1u << leaf;
     part.fix_axis();
     each_ray(block, leaf, [&](const glm::vec3& d) { part.widen(d); });
     const Cone cone = part.cone();
@@ -80,24 +82,43 @@ bool fill(const RayMap& rays, RayBlock& block) {
   return true;
 }
 
+/// The bits of both numbers by turns: Morton's order.
+uint64_t interleaved(int x, int y) {
+  uint64_t result = 0;
+  for (int bit = 0; bit < 31; ++bit) {
+    result |= uint64_t(x >> bit & 1) << (2 * bit) | uint64_t(y >> bit & 1) << (2 * bit + 1);
+  }
+  return result;
+}
+
 }  // namespace
 
 RayTree::RayTree(const RayMap& rays) : size_(rays.size) {
   const int across = (size_.width + RayBlock::side - 1) / RayBlock::side;
   const int down = (size_.height + RayBlock::side - 1) / RayBlock::side;
-  std::vector<std::vector<RayBlock>> rows(static_cast<size_t>(down));
-  tbb::parallel_for(0, down, [&](int row) {
-    for (int column = 0; column < across; ++column) {
-      RayBlock block;
-      block.pixel_x = column * RayBlock::side;
-      block.pixel_y = row * RayBlock::side;
-      if (fill(rays, block)) rows[size_t(row)].push_back(block);
-    }
+  std::vector<glm::ivec2> places;
+  for (int y = 0; y < down; ++y) {
+    for (int x = 0; x < across; ++x) places.emplace_back(x, y);
+  }
+  // Blocks that are done one after another see the same triangles, while these are still in the processor's caches.
+  std::sort(places.begin(), places.end(),
+            [](const glm::ivec2& a, const glm::ivec2& b) { return interleaved(a.x, a.y) < interleaved(b.x, b.y); });
+  blocks_.resize(places.size());
+  std::vector<char> filled(places.size());
+  tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
+    blocks_[i].pixel_x = places[i].x * RayBlock::side;
+    blocks_[i].pixel_y = places[i].y * RayBlock::side;
+    filled[i] = fill(rays, blocks_[i]);
   });
-  size_t count = 0;
-  for (const auto& row : rows) count += row.size();
-  blocks_.reserve(count);
-  for (const auto& row : rows) blocks_.insert(blocks_.end(), row.begin(), row.end());
+  size_t kept = 0;
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    if (filled[i]) {
+      blocks_[kept++] = blocks_[i];
+    } else {
+      blank_.emplace_back(blocks_[i].pixel_x, blocks_[i].pixel_y);
+    }
+  }
+  blocks_.resize(kept);
 }
 
 }  // namespace omma

@@ -26,7 +26,8 @@ struct alignas(64) RayBlock {
   float axis_x[leaves], axis_y[leaves], axis_z[leaves], sin[leaves], cos[leaves];  ///< the leaves' cones
   Cone cone;                                                                       ///< of all rays
   uint32_t leaf_mask;                                                              ///< leaves that have a ray
-  int pixel_x, pixel_y;                                                            ///< of the first ray
+  uint16_t rays[leaves];  ///< of each leaf: those that are rays
+  int pixel_x, pixel_y;   ///< of the first ray
 
   Cone leaf_cone(int leaf) const { return {{axis_x[leaf], axis_y[leaf], axis_z[leaf]}, sin[leaf], cos[leaf]}; }
   static int x_of(int leaf, int ray) { return leaf % 4 * leaf_side + ray % leaf_side; }
@@ -40,13 +41,16 @@ class RayTree {
   explicit RayTree(const RayMap& rays);
 
   ImageSize size() const { return size_; }
-  /// Those in which there is a ray.
+  /// Those in which there is a ray, neighbours near to each other.
   const std::vector<RayBlock>& blocks() const { return blocks_; }
+  /// The first pixels of those in which there is none.
+  const std::vector<glm::ivec2>& blank() const { return blank_; }
   size_t bytes() const { return blocks_.size() * sizeof(RayBlock); }
 
  private:
   ImageSize size_;
   std::vector<RayBlock> blocks_;
+  std::vector<glm::ivec2> blank_;
 };
 
 }  // namespace omma

@@ -62,7 +62,7 @@ OMMA_BINARY(max, Max)
     return r;                                                             \
   }
 OMMA_UNARY(abs, Abs)
-OMMA_UNARY(sqrt, Sqrt)
+OMMA_UNARY(rough_inverse_sqrt, ApproximateReciprocalSqrt)
 #undef OMMA_UNARY
 
 #define OMMA_COMPARE(name, function)                                              \
