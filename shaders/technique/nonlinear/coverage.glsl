@@ -1,4 +1,30 @@
-// The squares of the image that a triangle reaches: leaves, and whole nodes that lie within it.
+// Where in the image a triangle is drawn: as it is where the lens leaves it straight, in a polygon around it where the lens allows, else in the squares that it
+// reaches: leaves of the tree, and whole nodes that lie within it.
+#ifdef PROJECTS
+#include "common/camera.glsl"
+#include "technique/nonlinear/outline.glsl"
+#endif
+#include "technique/nonlinear/forms.glsl"
+
+// FORMS is a bit for each form that is drawn now.
+uint form_of(Pyramid pyramid) {
+#ifdef PROJECTS
+  Outline outline;
+  if (outline_of(pyramid.corner[0], pyramid.corner[1], pyramid.corner[2], pyramid.axis, pyramid.sine, pyramid.cosine,
+                 outline) &&
+      outline.bulge < FARTHEST_BULGE) {
+    bool straight = outline.bulge < STRAIGHT_BULGE && outline.slip < STRAIGHT_SLIP && outline.angle < STRAIGHT_ANGLE;
+    // Where the image is turned round the rasterizer would take the one side for the other.
+    vec3 volume = cross(pyramid.corner[1] - pyramid.corner[0], pyramid.corner[2] - pyramid.corner[0]);
+    bool turned = dot(pyramid.corner[0], volume) * outline_area(outline) <= 0.0;
+#ifndef ALL_EXACT
+    if (straight && !turned) return FORM_STRAIGHT;
+#endif
+    return FORM_OUTLINED;
+  }
+#endif
+  return FORM_SQUARES;
+}
 
 bool lies_within(Node node, Pyramid pyramid) {
   float within = node.sine + LEEWAY;
@@ -6,8 +32,14 @@ bool lies_within(Node node, Pyramid pyramid) {
          dot(pyramid.side[2], node.axis) > within;
 }
 
-// The next node to draw, from `node` on and before `end`; NO_PIECE when there is none.
+// The next node to draw, or OUTLINE, from `node` on and before `end`; NO_PIECE when there is none.
 uint next_piece(Pyramid pyramid, inout int node, int end) {
+  bool drawn = (FORMS >> pyramid.form & 1) != 0;
+  if (!drawn || pyramid.form != FORM_SQUARES) {
+    bool reached = drawn && node < end && may_reach(pyramid, node_of(node));
+    node = end;
+    return reached ? OUTLINE : NO_PIECE;
+  }
   while (node < end) {
     Node next = node_of(node);
     if (!may_reach(pyramid, next)) {

@@ -1,6 +1,7 @@
 // A fragment of a triangle's bounding shape: kept where its rays meet the triangle, with what they see there.
 #include "shading/output.glsl"
 #include "technique/nonlinear/exact_triangle.glsl"
+#include "technique/nonlinear/forms.glsl"
 #define TRIANGLE_COLORS
 #ifdef NORMAL_TEXTURE
 #define TRIANGLE_TANGENTS
@@ -21,9 +22,16 @@ vec3 beside_planes(vec3 ray) {
   return beside;
 }
 
-bool meets(vec3 ray) {
+bool meets(vec3 ray, PixelRay change) {
   vec3 beside = beside_planes(ray);
   for (int i = 0; i < 3; ++i) {
+#ifdef SOME_ARE_STRAIGHT
+    if ((exact.number.z >> i & 8u) != 0u) {
+      vec2 per_pixel = vec2(dot(exact.plane[i], change.dx), dot(exact.plane[i], change.dy));
+      if (beside[i] < -EDGE_OVERLAP * length(per_pixel)) return false;
+      continue;
+    }
+#endif
     if (!(beside[i] > 0.0 || (beside[i] == 0.0 && (exact.number.z >> i & 1u) != 0u))) return false;
   }
   return true;
@@ -46,14 +54,14 @@ bool is_inside(PixelRay ray) {
 int samples_that_meet(vec2 pixel, inout PixelRay ray) {
   int all = (1 << SAMPLES) - 1;
   if (is_inside(ray)) return all;
-  bool centre = meets(ray.direction);
+  bool centre = meets(ray.direction, ray);
   int samples = 0;
   vec3 first = ray.direction;
   for (int s = SAMPLES - 1; s >= 0; --s) {
     vec3 direction;
     // A sample beyond the edge of what the camera sees goes with the pixel's centre.
     if (!camera_unproject(pixel - 0.5 + vec2(sample_places[s]) / 256.0, direction)) direction = ray.direction;
-    if (meets(direction)) {
+    if (meets(direction, ray)) {
       samples |= 1 << s;
       first = direction;
     }
@@ -71,7 +79,7 @@ void main() {
   if (samples == 0) discard;
   gl_SampleMask[0] = samples;
 #else
-  if (!ray.valid || !meets(ray.direction)) discard;
+  if (!ray.valid || !meets(ray.direction, ray)) discard;
 #endif
   Surface surface = surface_of(triangle_of(exact.number.x, instance_of(exact.number.y)), exact.number.x, ray);
   if (surface_is_hole(surface)) discard;

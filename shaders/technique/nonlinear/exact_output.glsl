@@ -1,5 +1,6 @@
 // From a triangle's corners in the camera frame to what its fragments are given.
 #include "technique/nonlinear/exact_triangle.glsl"
+#include "technique/nonlinear/forms.glsl"
 
 out EXACT_TRIANGLE exact;
 
@@ -27,6 +28,14 @@ void write_exact(uvec2 hit, vec3 a, vec3 b, vec3 c) {
     if (!outwards[i]) exact.number.z |= 1u << i;
   }
   exact.inverse_distance = vec4(normal, volume);
+#ifdef SOME_ARE_STRAIGHT
+  // Decided by the edge alone, whatever the other triangle is.
+  vec3 ua = normalize(a), ub = normalize(b), uc = normalize(c);
+  vec3 chord = vec3(distance(ub, uc), distance(uc, ua), distance(ua, ub));
+  for (int i = 0; i < 3; ++i) {
+    if (chord[i] < 1.01 * STRAIGHT_ANGLE) exact.number.z |= 8u << i;
+  }
+#endif
 }
 
 float distance_to_edge(vec3 p, vec3 q) {

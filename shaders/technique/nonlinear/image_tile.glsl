@@ -2,5 +2,5 @@
 
 // Corner and side of a node's square, pixels of the target.
 ivec3 square_of(uint data) {
-  return ivec3(data & 0x3fffu, data >> 14 & 0x3fffu, 4 << int(2u * (data >> 28)));
+  return ivec3(data & 0x3fffu, data >> 14 & 0x3fffu, 1 << int(2u * (data >> 28)));
 }

@@ -27,6 +27,9 @@ struct Pyramid {
   vec3 side[3];  // unit, pointing inwards
   vec3 axis;
   float cosine, sine;
+#ifdef TRIANGLE_FORMS
+  uint form;  // what COVERAGE's form_of makes of it
+#endif
 };
 
 // False when the triangle faces away (where that hides it) or has the camera in its plane.

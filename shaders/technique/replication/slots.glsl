@@ -44,6 +44,10 @@ bool item_pyramid(uint item, out Pyramid pyramid) {
   PartRecord part = part_of(item_part(item));
   InstanceRecord instance = instance_of(part.instance);
   uvec3 corner = item_corners(item, part, instance);
-  return pyramid_of(corner_position(instance, corner.x), corner_position(instance, corner.y),
-                    corner_position(instance, corner.z), part.cull_sign, pyramid);
+  bool exists = pyramid_of(corner_position(instance, corner.x), corner_position(instance, corner.y),
+                           corner_position(instance, corner.z), part.cull_sign, pyramid);
+#ifdef TRIANGLE_FORMS
+  if (exists) pyramid.form = form_of(pyramid);
+#endif
+  return exists;
 }

@@ -12,6 +12,12 @@ void ExactStage::set(const View& view) {
   sample_places_ = sample_places(samples_);
 }
 
+MeshPass ExactStage::straight_pass(const View& view, std::vector<gl::Stage> stages) const {
+  MeshPass straight = pass(view, std::move(stages));
+  straight.fragment_shader = MeshPass{}.fragment_shader;
+  return straight;
+}
+
 MeshPass ExactStage::pass(const View& view, std::vector<gl::Stage> stages) const {
   gl::Defines defines = camera_defines(view.camera);
   defines["SAMPLES"] = std::to_string(sample_places_.size());

@@ -21,6 +21,8 @@ class ExactStage {
   /// where they blend; a triangle that faces away (cull_sign) they leave out. They have the symbols and uniforms of the
   /// camera, NEAR and `tile_size`. The view must outlive the pass.
   MeshPass pass(const View& view, std::vector<gl::Stage> stages) const;
+  /// A pass without that fragment stage, for triangles that are straight.
+  MeshPass straight_pass(const View& view, std::vector<gl::Stage> stages) const;
 
  private:
   DrawTools& tools_;

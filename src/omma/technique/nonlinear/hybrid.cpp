@@ -12,24 +12,30 @@ class HybridDrawer : public BoundDrawer {
   explicit HybridDrawer(DrawTools& tools)
       : tools_(tools),
         clusters_(tools.scene),
+        straight_(tools),
         solid_(tools, ReplicaShape::hexagon),
         blended_(tools, ReplicaShape::hexagon) {}
 
   void scene_changed() override { clusters_.update(); }
   size_t buffer_bytes() const override {
-    return tiles_.bytes() + clusters_.bytes() + solid_.bytes() + blended_.bytes();
+    return tiles_.bytes() + clusters_.bytes() + straight_.bytes() + solid_.bytes() + blended_.bytes();
   }
 
   void draw(const View& view, const ExactStage& exact) override {
     tools_.timer.mark("tiles");
     tiles_.set(view);
-    const MeshPass pass = exact.pass(view, {{GL_VERTEX_SHADER, "technique/nonlinear/bound.vert"}});
-    draw_solid(view, pass);
-    if (!view.labels() && tools_.scene.has_blending()) draw_blended(view, pass);
+    draw_solid(view, exact);
+    if (!view.labels() && tools_.scene.has_blending()) draw_blended(view, exact);
   }
 
  private:
-  void draw_solid(const View& view, const MeshPass& pass) {
+  MeshPass exact_pass(const View& view, const ExactStage& exact) const {
+    MeshPass pass = exact.pass(view, {{GL_VERTEX_SHADER, "technique/nonlinear/bound.vert"}});
+    pass.defines.merge(tiles_.outline_defines());
+    return pass;
+  }
+
+  void draw_solid(const View& view, const ExactStage& exact) {
     std::vector<const ClusterGroup*> groups;
     std::vector<glm::uvec2> ranges;
     for (const ClusterGroup& group : clusters_.groups()) {
@@ -38,27 +44,40 @@ class HybridDrawer : public BoundDrawer {
       ranges.push_back(SceneClusters::cluster_triangles * glm::uvec2(group.first_cluster, group.last_cluster));
     }
     if (groups.empty()) return;
-    solid_.replicate_clusters(tiles_, clusters_, groups.back()->last_cluster);
-    solid_.prepare_draws(ranges);
-
-    tools_.timer.mark("draw");
-    const SurfaceState state(tools_, false);
-    solid_.bind();
-    for (size_t i = 0; i < groups.size(); ++i) {
-      use_material(tools_, pass, view, groups[i]->material, groups[i]->mirrored);
-      solid_.draw(i);
-    }
+    const auto draw = [&](Forms forms, Replicator& replicator, const MeshPass& pass) {
+      tiles_.look_for(forms);
+      replicator.replicate_clusters(tiles_, clusters_, groups.back()->last_cluster);
+      if (replicator.replica_count() == 0) return;
+      replicator.prepare_draws(ranges);
+      tools_.timer.mark("draw");
+      const SurfaceState state(tools_, false);
+      replicator.bind();
+      for (size_t i = 0; i < groups.size(); ++i) {
+        use_material(tools_, pass, view, groups[i]->material, groups[i]->mirrored);
+        replicator.draw(i);
+      }
+    };
+    MeshPass pass = exact_pass(view, exact);
+    if (view.camera.lens() == nullptr) return draw(Forms::all_exact, solid_, pass);
+    pass.defines["SOME_ARE_STRAIGHT"] = "1";
+    MeshPass straight = exact.straight_pass(view, {{GL_VERTEX_SHADER, "technique/nonlinear/straight.vert"}});
+    straight.defines["PULLED"] = "1";
+    draw(Forms::straight, straight_, straight);
+    draw(Forms::all_but_straight, solid_, pass);
   }
 
-  void draw_blended(const View& view, const MeshPass& pass) {
+  void draw_blended(const View& view, const ExactStage& exact) {
     const BlendedItems blended = blended_items(tools_.scene);
     if (blended.items.empty()) return;
+    // Exactly, so that nothing is laid twice over what is behind it.
+    tiles_.look_for(Forms::all_exact);
     blended_.replicate_items(tiles_, clusters_, blended.items);
     blended_.prepare_draws(blended.ranges);
 
     tools_.timer.mark("draw");
     const SurfaceState state(tools_, true);
     blended_.bind();
+    const MeshPass pass = exact_pass(view, exact);
     for (size_t i = 0; i < blended.ranges.size(); ++i) {
       const Part& part = tools_.scene.parts()[blended.parts[i]];
       use_material(tools_, pass, view, part.material, part.mirrored);
@@ -69,7 +88,7 @@ class HybridDrawer : public BoundDrawer {
   DrawTools& tools_;
   ImageTiles tiles_;
   SceneClusters clusters_;
-  Replicator solid_, blended_;
+  Replicator straight_, solid_, blended_;
 };
 
 }  // namespace

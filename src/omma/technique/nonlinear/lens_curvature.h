@@ -1,0 +1,46 @@
+// How much a lens bends the edges of triangles, depending on where they are: bounds of the derivatives of its
+// projection along great circles, from which it follows how far a curved edge lies from the straight one between its
+// ends.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "omma/camera/camera.h"
+
+namespace omma {
+
+/// Along any great circle, an angle s (radians) to a pixel p(s), around some direction. The deviation of p from the
+/// chord of an edge of angle a is then at most (bend + change * change * a / speed) * a^2 / 8 pixels.
+struct Curvature {
+  float bend = 0.0f;    ///< |p''| across p', at most
+  float change = 0.0f;  ///< |p''|, at most; infinite where the projection is not smooth or not all is seen
+  float speed = 0.0f;   ///< |p'|, at least
+
+  float deviation_px(float angle) const;
+};
+
+/// A table over directions for triangles of up to a few sizes. Any lens, measured on its formulae.
+class LensCurvature {
+ public:
+  /// Cells along a side of a cube's face: of the table for the smallest triangles, and half as many for each next.
+  static constexpr int finest = 32;
+  static constexpr int levels = 5;
+  /// Of all directions within this angle (radians) of one, the table of a level knows the bounds.
+  static constexpr double reach(int level) { return reach_in_cells * 2.0 / (finest >> level); }
+  static constexpr double reach_in_cells = 1.0 / 3.0;  ///< of those in a face's middle
+
+  explicit LensCurvature(const Lens& lens);
+
+  /// Of all that is within `angle` of a direction of the camera frame, whatever its length.
+  Curvature around(const glm::dvec3& direction, double angle) const;
+
+  /// Level after level, face after face (+X, -X, +Y, -Y, +Z, -Z), in rows.
+  const std::vector<Curvature>& cells() const { return cells_; }
+
+ private:
+  std::vector<Curvature> cells_;
+};
+
+}  // namespace omma
