@@ -58,6 +58,7 @@ RenderOptions render_options_of(const Options& options) {
   if (options.background) result.background = background_of(*options.background);
   for (const std::string& text : options.effects) result.effects.push_back(make_effect(text));
   for (const std::string& name : options.show) result.show.insert(show_from_name(name));
+  result.count_fragments = options.stats.has_value();
   if (options.face_size) result.face_size = count_of("--face-size", *options.face_size, 1, max_image_side);
   if (options.tolerance) result.pieces.tolerance_px = number_of("--tolerance", *options.tolerance, 0.01, 100.0);
   if (options.pieces) result.pieces.count = count_of("--pieces", *options.pieces, 1, 1000000);
@@ -85,14 +86,14 @@ class Job {
         overwrite_(options.overwrite) {
     if (stats_path_) require_writable(*stats_path_);
     require_patterns(options.view.pose.has_value());
-    choose_technique(render_options_.technique, camera_);
+    check_show(render_options_.show, choose_technique(render_options_.technique, camera_));
     for (const Output& output : outputs_) {
       if (std::find(channels_.begin(), channels_.end(), output.channel) == channels_.end()) {
         channels_.push_back(output.channel);
       }
     }
     const bool has_color = std::find(channels_.begin(), channels_.end(), Channel::color) != channels_.end();
-    if (!effects_of(render_options_).empty() && !has_color) {
+    if ((!effects_of(render_options_).empty() || !render_options_.show.empty()) && !has_color) {
       throw CommandError("--effect and --show change the colour alone, and no -o asks for it");
     }
   }

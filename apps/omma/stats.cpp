@@ -25,6 +25,8 @@ Json to_json(const FrameStats& frame) {
       {"replication", render.triangles ? double(render.triangles_drawn) / double(render.triangles) : 0.0},
       {"fragments_shaded", fragments},
       {"samples_kept", render.samples_kept},
+      {"fragments_touched", render.bound_fragments ? Json(render.bound_fragments->touched) : Json(nullptr)},
+      {"fragments_kept", render.bound_fragments ? Json(render.bound_fragments->kept) : Json(nullptr)},
       {"buffer_bytes", render.buffer_bytes},
       {"pieces", render.pieces},
       {"piece_error_px", render.piece_error_px},

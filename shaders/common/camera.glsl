@@ -56,13 +56,15 @@ bool camera_unproject(vec2 pixel, out vec3 direction) {
   return valid;
 }
 
-bool camera_project(vec3 direction, out vec2 pixel) {
+bool camera_project_within(float max_angle, vec3 direction, out vec2 pixel) {
   vec2 plane;
   vec3 in_lens = direction * cameraFromLens;
-  bool valid = LENS_PROJECT(lens_params(), vec3(in_lens.x, -in_lens.y, -in_lens.z), plane);
+  bool valid = LENS_PROJECT(Params(lens_k, max_angle), vec3(in_lens.x, -in_lens.y, -in_lens.z), plane);
   pixel = lens_centre + lens_focal * plane;
   return valid;
 }
+
+bool camera_project(vec3 direction, out vec2 pixel) { return camera_project_within(lens_max_angle, direction, pixel); }
 
 #endif
 

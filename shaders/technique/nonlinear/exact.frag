@@ -1,89 +1,20 @@
 // A fragment of a triangle's bounding shape: kept where its rays meet the triangle, with what they see there.
-#include "shading/output.glsl"
-#include "technique/nonlinear/exact_triangle.glsl"
-#include "technique/nonlinear/forms.glsl"
 #define TRIANGLE_COLORS
 #ifdef NORMAL_TEXTURE
 #define TRIANGLE_TANGENTS
 #endif
+#include "shading/output.glsl"
+#include "technique/nonlinear/exact_coverage.glsl"
 #include "technique/triangle.glsl"
-
-in EXACT_TRIANGLE exact;
 
 // The rasterized depth is the nearest that the triangle has: where even that is hidden, no fragment needs to run.
 layout(depth_less) out float gl_FragDepth;
 
-vec3 beside_planes(vec3 ray) {
-  precise vec3 beside;
-  for (int i = 0; i < 3; ++i) {
-    vec3 plane = exact.plane[i];
-    beside[i] = plane.x * ray.x + plane.y * ray.y + plane.z * ray.z;
-  }
-  return beside;
-}
-
-bool meets(vec3 ray, PixelRay change) {
-  vec3 beside = beside_planes(ray);
-  for (int i = 0; i < 3; ++i) {
-#ifdef SOME_ARE_STRAIGHT
-    if ((exact.number.z >> i & 8u) != 0u) {
-      vec2 per_pixel = vec2(dot(exact.plane[i], change.dx), dot(exact.plane[i], change.dy));
-      if (beside[i] < -EDGE_OVERLAP * length(per_pixel)) return false;
-      continue;
-    }
-#endif
-    if (!(beside[i] > 0.0 || (beside[i] == 0.0 && (exact.number.z >> i & 1u) != 0u))) return false;
-  }
-  return true;
-}
-
-#if SAMPLES > 1
-uniform ivec2 sample_places[SAMPLES];  // within a pixel, in 1/256 px
-
-// True when no edge comes near the pixel, so that all of it sees the triangle.
-bool is_inside(PixelRay ray) {
-  vec3 beside = beside_planes(ray.direction);
-  for (int i = 0; i < 3; ++i) {
-    if (beside[i] <= abs(dot(exact.plane[i], ray.dx)) + abs(dot(exact.plane[i], ray.dy))) return false;
-  }
-  return true;
-}
-
-// The samples that see the triangle, as bits. Where the pixel's centre does not, the ray becomes the first one that
-// does: a surface extended beyond its edges may be anywhere.
-int samples_that_meet(vec2 pixel, inout PixelRay ray) {
-  int all = (1 << SAMPLES) - 1;
-  if (is_inside(ray)) return all;
-  bool centre = meets(ray.direction, ray);
-  int samples = 0;
-  vec3 first = ray.direction;
-  for (int s = SAMPLES - 1; s >= 0; --s) {
-    vec3 direction;
-    // A sample beyond the edge of what the camera sees goes with the pixel's centre.
-    if (!camera_unproject(pixel - 0.5 + vec2(sample_places[s]) / 256.0, direction)) direction = ray.direction;
-    if (meets(direction, ray)) {
-      samples |= 1 << s;
-      first = direction;
-    }
-  }
-  if (!centre) ray.direction = first;
-  return samples;
-}
-#endif
-
 void main() {
-  vec2 pixel = gl_FragCoord.xy + pixel_offset;
-  PixelRay ray = camera_ray(pixel);
-#if SAMPLES > 1
-  int samples = ray.valid ? samples_that_meet(pixel, ray) : 0;
-  if (samples == 0) discard;
-  gl_SampleMask[0] = samples;
-#else
-  if (!ray.valid || !meets(ray.direction, ray)) discard;
-#endif
+  PixelRay ray;
+  if (!find_coverage(ray)) discard;
   Surface surface = surface_of(triangle_of(exact.number.x, instance_of(exact.number.y)), exact.number.x, ray);
   if (surface_is_hole(surface)) discard;
-  vec4 inverse = exact.inverse_distance;
-  gl_FragDepth = clamp(NEAR * dot(inverse.xyz, ray.direction) / inverse.w, 0.0, gl_FragCoord.z);
+  gl_FragDepth = depth_along(ray.direction);
   write_outputs(surface);
 }

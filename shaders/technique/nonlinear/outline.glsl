@@ -8,6 +8,12 @@ const int LEVELS = 5;
 
 const float FARTHEST_BULGE = 4.0;  // px; what bulges more is drawn in squares of the image
 
+uniform float formula_max_angle;  // radians: triangles at the edge of the field of view have corners beyond it
+
+bool formula_project(vec3 direction, out vec2 pixel) {
+  return camera_project_within(formula_max_angle, direction, pixel);
+}
+
 // A triangle's corners in the image, and how far its edges may lie from straight ones, px.
 struct Outline {
   vec2 corner[3];  // px
@@ -42,13 +48,13 @@ bool outline_of(vec3 a, vec3 b, vec3 c, vec3 axis, float sine, float cosine, out
   vec3 ua = normalize(a), ub = normalize(b), uc = normalize(c);
   float chord = max(distance(ua, ub), max(distance(ub, uc), distance(uc, ua)));
   outline.angle = 2.0 * asin(min(1.0, 0.5 * chord));
-  float turn = curvature.y * outline.angle / curvature.z;  // of the edge in the image, radians
+  float turn = curvature.x * outline.angle / curvature.z;  // of the edge in the image, radians
   // An edge that turns farther might leave its chord beyond the chord's ends.
   if (!(turn < 0.5)) return false;
   outline.slip = curvature.y * outline.angle * outline.angle / 8.0;
   outline.bulge = min(1.0, turn) * outline.slip + curvature.x * outline.angle * outline.angle / 8.0;
-  if (!camera_project(ua, outline.corner[0]) || !camera_project(ub, outline.corner[1]) ||
-      !camera_project(uc, outline.corner[2])) {
+  if (!formula_project(ua, outline.corner[0]) || !formula_project(ub, outline.corner[1]) ||
+      !formula_project(uc, outline.corner[2])) {
     return false;
   }
   // Of edges without a direction no side is the outer one.

@@ -11,6 +11,7 @@ const std::vector<ShowInfo>& shows() {
   static const std::vector<ShowInfo> infos{
       {Show::edges, "edges", "the edges of all triangles, thick and white"},
       {Show::pieces, "pieces", "the borders of the pieces that piecewise draws, thin and black"},
+      {Show::overdraw, "overdraw", "what nonlinear rasterizes, red and green where it is kept, blue where not"},
   };
   return infos;
 }

@@ -15,7 +15,7 @@ namespace omma {
 enum class Filter { trilinear, anisotropic };
 
 /// What is drawn over a picture to show how it is made.
-enum class Show { edges, pieces };
+enum class Show { edges, pieces, overdraw };
 
 struct ShowInfo {
   Show show;
@@ -46,6 +46,7 @@ struct RenderOptions {
   int tile = 0;                   ///< largest tile's side in pixels, 0: what the driver allows
   std::vector<Effect> effects{};  ///< on colour, one after another; up to max_effects, what is shown included
   std::set<Show> show{};          ///< over colour
+  bool count_fragments = false;   ///< takes longer; see RenderStats::bound_fragments
   std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
   Shadows shadows = Shadows::off;
   int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
@@ -56,6 +57,12 @@ struct RenderOptions {
 /// The effects asked for, then those that show something. Throws CommandError for a chain that check_effects refuses.
 std::vector<Effect> effects_of(const RenderOptions& options);
 
+/// Pixels of bounding shapes, summed over triangles whether hidden or not.
+struct BoundFragments {
+  uint64_t touched = 0;  ///< that the shapes cover
+  uint64_t kept = 0;     ///< of those, the ones that see the triangle
+};
+
 /// What a picture took. Times are milliseconds, of the GPU's own clock where there is a GPU.
 struct RenderStats {
   std::string technique;                     ///< the one that drew, `name:variant`
@@ -64,9 +71,10 @@ struct RenderStats {
   size_t triangles_drawn = 0;                ///< primitives that reached the rasterizer for surfaces, over all passes
   std::optional<uint64_t> fragments_shaded;  ///< for surfaces; nothing where the driver does not count
   uint64_t samples_kept = 0;                 ///< of those, samples that passed the depth test and were no hole
-  size_t buffer_bytes = 0;                   ///< on the GPU: geometry, textures, targets
-  size_t pieces = 0;                         ///< piecewise: that make up the image
-  double piece_error_px = 0.0;               ///< piecewise: from the camera, at most
+  std::optional<BoundFragments> bound_fragments;  ///< nonlinear, where RenderOptions asks for it
+  size_t buffer_bytes = 0;                        ///< on the GPU: geometry, textures, targets
+  size_t pieces = 0;                              ///< piecewise: that make up the image
+  double piece_error_px = 0.0;                    ///< piecewise: from the camera, at most
   int tiles = 0;
   int passes = 0;  ///< colour passes accumulated
   std::vector<std::pair<std::string, double>> stage_ms;
@@ -83,6 +91,7 @@ struct TechniqueInfo {
   std::string description;
   bool exact;                         ///< equal to `raycast` but for rounding at edges
   bool needs_project;                 ///< cannot draw a ray map
+  bool bounds = false;                ///< rasterizes bounding shapes, some of whose fragments are not kept
   std::vector<VariantInfo> variants;  ///< the first is the default; empty: none
 };
 

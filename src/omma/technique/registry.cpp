@@ -72,6 +72,13 @@ ChosenTechnique choose_depth_technique(const Camera& camera) {
   return choose_technique(planar_draws(camera) ? "planar" : "nonlinear", camera);
 }
 
+void check_show(const std::set<Show>& show, const ChosenTechnique& chosen) {
+  if (show.contains(Show::overdraw) && !chosen.entry->info.bounds) {
+    throw CommandError("technique '{}' rasterizes no bounding shapes whose overdraw could be shown; nonlinear does",
+                       chosen.name());
+  }
+}
+
 const std::vector<TechniqueInfo>& techniques() {
   static const std::vector<TechniqueInfo> infos = [] {
     std::vector<TechniqueInfo> list;

@@ -25,4 +25,7 @@ ChosenTechnique choose_technique(std::string_view text, const Camera& camera);
 /// What draws the depth alone that a camera sees.
 ChosenTechnique choose_depth_technique(const Camera& camera);
 
+/// Throws CommandError when the technique has not what `show` asks for.
+void check_show(const std::set<Show>& show, const ChosenTechnique& chosen);
+
 }  // namespace omma

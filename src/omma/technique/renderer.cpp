@@ -225,6 +225,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
   }
   const ChosenTechnique chosen = choose_technique(options.technique, camera);
   const std::vector<Effect> effects = effects_of(options);
+  check_show(options.show, chosen);
   parts.context.make_current();
   const gl::Limits& limits = parts.context.limits();
   Technique& technique = parts.technique(chosen);
@@ -240,11 +241,14 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
   std::map<Channel, Image> pictures;
   for (Channel channel : wanted) pictures.emplace(channel, make_image(channel, camera.size()));
   parts.tools->counters.finish();
+  BoundFragments bound_fragments;
   for (const PixelRect& tile : tiles) {
     View view{.camera = camera, .worldFromCamera = worldFromCamera, .tile = tile};
     view.filter = options.filter;
     view.face_size = options.face_size;
     view.pieces = options.pieces;
+    view.show_overdraw = options.show.contains(Show::overdraw);
+    view.bound_fragments = options.count_fragments && chosen.entry->info.bounds ? &bound_fragments : nullptr;
     if (pictures.contains(Channel::color)) {
       paste(parts.draw_color(technique, view, passes, effects, options.show.contains(Show::pieces)), tile,
             pictures.at(Channel::color));
@@ -267,6 +271,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
     stats->stage_ms = std::move(stages);
     if (options.reflect) stats->stage_ms.insert(stats->stage_ms.begin(), {"reflection maps", reflection_ms});
     if (options.shadows != Shadows::off) stats->stage_ms.insert(stats->stage_ms.begin(), {"shadow maps", shadow_ms});
+    if (options.count_fragments && chosen.entry->info.bounds) stats->bound_fragments = bound_fragments;
     technique.report(*stats);
   }
   return pictures;

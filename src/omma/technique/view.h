@@ -23,6 +23,9 @@ struct View {
   int face_size = 0;
   PieceOptions pieces{};
 
+  bool show_overdraw = false;                 ///< instead of colour
+  BoundFragments* bound_fragments = nullptr;  ///< added to where they are to be counted
+
   bool labels() const { return outputs.empty() || outputs.front() != Channel::color; }
   bool anisotropic() const { return filter == Filter::anisotropic; }
   ImageSize size() const { return {tile.width(), tile.height()}; }

@@ -5,8 +5,15 @@
 #include "omma/technique/sample_places.h"
 
 namespace omma {
+namespace {
 
-void ExactStage::set(const View& view) {
+constexpr const char* fragment_shaders[] = {"technique/nonlinear/exact.frag", "technique/nonlinear/overdraw.frag",
+                                            "technique/nonlinear/touched.frag", "technique/nonlinear/kept.frag"};
+
+}  // namespace
+
+void ExactStage::set(const View& view, FragmentUse use) {
+  use_ = use;
   if (samples_ == view.samples) return;
   samples_ = view.samples;
   sample_places_ = sample_places(samples_);
@@ -14,7 +21,9 @@ void ExactStage::set(const View& view) {
 
 MeshPass ExactStage::straight_pass(const View& view, std::vector<gl::Stage> stages) const {
   MeshPass straight = pass(view, std::move(stages));
-  straight.fragment_shader = MeshPass{}.fragment_shader;
+  straight.fragment_shader = use_ == FragmentUse::surfaces   ? "technique/mesh.frag"
+                             : use_ == FragmentUse::overdraw ? "technique/nonlinear/overdraw_straight.frag"
+                                                             : "technique/nonlinear/touched.frag";
   return straight;
 }
 
@@ -34,7 +43,7 @@ MeshPass ExactStage::pass(const View& view, std::vector<gl::Stage> stages) const
               },
           .may_be_seen = [](const Bounds&) { return true; },
           .culls = false,
-          .fragment_shader = "technique/nonlinear/exact.frag"};
+          .fragment_shader = fragment_shaders[size_t(use_)]};
 }
 
 }  // namespace omma

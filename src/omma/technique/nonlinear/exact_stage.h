@@ -9,12 +9,20 @@
 
 namespace omma {
 
+/// What is made of the fragments.
+enum class FragmentUse {
+  surfaces,
+  overdraw,  ///< colours that show which are kept
+  touched,   ///< all, to be counted
+  kept,      ///< those whose pixel's centre sees the triangle, to be counted
+};
+
 class ExactStage {
  public:
   explicit ExactStage(DrawTools& tools) : tools_(tools) {}
 
   /// Takes the view that the next passes draw.
-  void set(const View& view);
+  void set(const View& view, FragmentUse use);
 
   /// A pass with these stages before shaders/technique/nonlinear/exact.frag. They write EXACT_TRIANGLE, with
   /// nearest_depth() as depth, for shapes that cover every pixel and sample in which a triangle is seen, each once
@@ -26,6 +34,7 @@ class ExactStage {
 
  private:
   DrawTools& tools_;
+  FragmentUse use_ = FragmentUse::surfaces;
   int samples_ = 0;
   std::vector<glm::ivec2> sample_places_;
 };

@@ -29,10 +29,18 @@ class HybridDrawer : public BoundDrawer {
   }
 
  private:
-  MeshPass exact_pass(const View& view, const ExactStage& exact) const {
-    MeshPass pass = exact.pass(view, {{GL_VERTEX_SHADER, "technique/nonlinear/bound.vert"}});
+  /// The pass with what the vertex stages ask of the camera.
+  MeshPass outlined(MeshPass pass) const {
     pass.defines.merge(tiles_.outline_defines());
+    pass.set_uniforms = [this, set = pass.set_uniforms](const gl::Program& program) {
+      set(program);
+      tiles_.set_uniforms(program);
+    };
     return pass;
+  }
+
+  MeshPass exact_pass(const View& view, const ExactStage& exact) const {
+    return outlined(exact.pass(view, {{GL_VERTEX_SHADER, "technique/nonlinear/bound.vert"}}));
   }
 
   void draw_solid(const View& view, const ExactStage& exact) {
@@ -60,7 +68,7 @@ class HybridDrawer : public BoundDrawer {
     MeshPass pass = exact_pass(view, exact);
     if (view.camera.lens() == nullptr) return draw(Forms::all_exact, solid_, pass);
     pass.defines["SOME_ARE_STRAIGHT"] = "1";
-    MeshPass straight = exact.straight_pass(view, {{GL_VERTEX_SHADER, "technique/nonlinear/straight.vert"}});
+    MeshPass straight = outlined(exact.straight_pass(view, {{GL_VERTEX_SHADER, "technique/nonlinear/straight.vert"}}));
     straight.defines["PULLED"] = "1";
     draw(Forms::straight, straight_, straight);
     draw(Forms::all_but_straight, solid_, pass);

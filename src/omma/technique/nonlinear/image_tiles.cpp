@@ -303,6 +303,9 @@ void ImageTiles::bind() const {
 void ImageTiles::set_uniforms(const gl::Program& program) const {
   program.set("node_count", node_count_);
   set_camera(program, *view_);
+  if (const Lens* lens = view_->camera.lens()) {
+    program.set("formula_max_angle", float(LensCurvature::without_limit(*lens).parameters.max_angle));
+  }
 }
 
 gl::Defines ImageTiles::coverage_defines() const {

@@ -193,12 +193,11 @@ std::vector<Curvature> coarser(const std::vector<Curvature>& table, int cells) {
 }  // namespace
 
 float Curvature::deviation_px(float angle) const {
-  return change == infinite ? infinite
-                            : (bend + change * std::min(1.0f, change * angle / speed)) * angle * angle / 8.0f;
+  return change == infinite ? infinite : (bend + change * std::min(1.0f, turn(angle))) * angle * angle / 8.0f;
 }
 
 LensCurvature::LensCurvature(const Lens& lens) {
-  std::vector<Curvature> table = measured(lens);
+  std::vector<Curvature> table = measured(without_limit(lens));
   mark_what_project_misses(lens, table);
   for (int level = 0; level < levels; ++level) {
     const int cells = finest >> level;
@@ -206,6 +205,11 @@ LensCurvature::LensCurvature(const Lens& lens) {
     const std::vector<Curvature> wide = with_neighbours(table, cells);
     cells_.insert(cells_.end(), wide.begin(), wide.end());
   }
+}
+
+Lens LensCurvature::without_limit(Lens lens) {
+  lens.parameters.max_angle = lens.model->info.max_angle(lens.parameters);
+  return lens;
 }
 
 Curvature LensCurvature::around(const glm::dvec3& direction, double angle) const {

@@ -11,13 +11,15 @@
 
 namespace omma {
 
-/// Along any great circle, an angle s (radians) to a pixel p(s), around some direction. The deviation of p from the
-/// chord of an edge of angle a is then at most (bend + change * change * a / speed) * a^2 / 8 pixels.
+/// Along any great circle, an angle s (radians) to a pixel p(s), around some direction. An edge of angle a then turns
+/// by at most bend * a / speed in the image, and no farther is p' off its chord's direction: p leaves the chord by at
+/// most (bend + change * bend * a / speed) * a^2 / 8 pixels.
 struct Curvature {
   float bend = 0.0f;    ///< |p''| across p', at most
   float change = 0.0f;  ///< |p''|, at most; infinite where the projection is not smooth or not all is seen
   float speed = 0.0f;   ///< |p'|, at least
 
+  float turn(float angle) const { return bend * angle / speed; }
   float deviation_px(float angle) const;
 };
 
@@ -32,6 +34,9 @@ class LensCurvature {
   static constexpr double reach_in_cells = 1.0 / 3.0;  ///< of those in a face's middle
 
   explicit LensCurvature(const Lens& lens);
+
+  /// The same lens, seeing as far as its formula goes.
+  static Lens without_limit(Lens lens);
 
   /// Of all that is within `angle` of a direction of the camera frame, whatever its length.
   Curvature around(const glm::dvec3& direction, double angle) const;

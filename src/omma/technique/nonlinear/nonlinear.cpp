@@ -29,7 +29,7 @@ class Nonlinear : public Technique {
   size_t buffer_bytes() const override { return drawer_->buffer_bytes(); }
 
   void draw(const View& view, const Target& target) override {
-    exact_.set(view);
+    exact_.set(view, view.show_overdraw && !view.labels() ? FragmentUse::overdraw : FragmentUse::surfaces);
     tools_.multisampled(view, target, [&](const Target& image) {
       image.begin();
       tools_.timer.mark("background");
@@ -37,9 +37,33 @@ class Nonlinear : public Technique {
       tools_.timer.mark("draw");
       drawer_->draw(view, exact_);
     });
+    if (view.bound_fragments != nullptr) count(view, *view.bound_fragments);
   }
 
  private:
+  /// Draws twice more, one sample a pixel and nothing hidden.
+  void count(const View& view, BoundFragments& fragments) {
+    tools_.timer.mark("count fragments");
+    View counted = view;
+    counted.samples = 1;
+    const gl::Framebuffer nothing = gl::create_framebuffer();
+    glNamedFramebufferParameteri(nothing.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, view.size().width);
+    glNamedFramebufferParameteri(nothing.id(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, view.size().height);
+    glBindFramebuffer(GL_FRAMEBUFFER, nothing.id());
+    glViewport(0, 0, view.size().width, view.size().height);
+    gl::Counters of_picture;
+    std::swap(of_picture, tools_.counters);
+    const auto samples_of = [&](FragmentUse use) {
+      exact_.set(counted, use);
+      glBindFramebuffer(GL_FRAMEBUFFER, nothing.id());
+      drawer_->draw(counted, exact_);
+      return tools_.counters.finish().samples;
+    };
+    fragments.touched += samples_of(FragmentUse::touched);
+    fragments.kept += samples_of(FragmentUse::kept);
+    std::swap(of_picture, tools_.counters);
+  }
+
   DrawTools& tools_;
   ExactStage exact_;
   std::unique_ptr<BoundDrawer> drawer_;
@@ -58,6 +82,7 @@ const TechniqueEntry nonlinear_technique{
      .description = "each triangle once, its curved edges decided by every fragment's ray; exact for every camera",
      .exact = true,
      .needs_project = false,
+     .bounds = true,
      .variants = variant_infos()},
     [](DrawTools& tools, const std::string& name) -> std::unique_ptr<Technique> {
       const Variant& variant = *std::find_if(std::begin(variants), std::end(variants),

@@ -1,0 +1,2 @@
+// To count the fragments of bounding shapes.
+void main() {}
