@@ -3,8 +3,9 @@
 
 // Bend, change and speed of each cell: level after level, face after face, in rows.
 layout(binding = 22) uniform samplerBuffer curvature_texels;
-const int FINEST = 32;
+const int CELLS_A_SIDE = 24;
 const int LEVELS = 5;
+const float FIRST_REACH = 1.0 / 48.0;  // radians; of each next level twice as far
 
 const float FARTHEST_BULGE = 4.0;  // px; what bulges more is drawn in squares of the image
 
@@ -25,19 +26,18 @@ struct Outline {
 // Of what is within an angle (by its cosine and sine) of a direction. False where the lens is not smooth there.
 bool curvature_around(vec3 direction, float sine, float cosine, out vec3 curvature) {
   curvature = vec3(0.0);
-  int level = 0, first = 0, cells = FINEST;
+  int level = 0;
   float angle = atan(sine, cosine);
-  while (angle > 2.0 / 3.0 / float(cells)) {
-    first += 6 * cells * cells;
-    cells /= 2;
+  while (angle > FIRST_REACH * float(1 << level)) {
     if (++level == LEVELS) return false;
   }
   vec3 size = abs(direction);
   int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   vec3 turned = axis == 0 ? direction.xyz : axis == 1 ? direction.yzx : direction.zxy;
   int face = 2 * axis + int(turned.x < 0.0);
-  ivec2 at = clamp(ivec2(floor((turned.yz / abs(turned.x) + 1.0) * (0.5 * float(cells)))), ivec2(0), ivec2(cells - 1));
-  curvature = texelFetch(curvature_texels, first + (face * cells + at.y) * cells + at.x).xyz;
+  ivec2 at = clamp(ivec2(floor((turned.yz / abs(turned.x) + 1.0) * (0.5 * float(CELLS_A_SIDE)))), ivec2(0),
+                   ivec2(CELLS_A_SIDE - 1));
+  curvature = texelFetch(curvature_texels, ((level * 6 + face) * CELLS_A_SIDE + at.y) * CELLS_A_SIDE + at.x).xyz;
   return !isinf(curvature.y);
 }
 

@@ -81,7 +81,7 @@ class Probe {
 
  private:
   /// Far enough for a fold anywhere in a cell to lie under one of its points' differences.
-  static constexpr double step = 1.5 / LensCurvature::finest;
+  static constexpr double step = 1.5 / LensCurvature::cells_a_side;
 
   bool differences(const glm::dvec2& middle, const glm::dvec3& along, glm::dvec2& first, glm::dvec2& second) const {
     glm::dvec2 coarse, fine;
@@ -110,7 +110,7 @@ class Probe {
 
 /// What lies within each cell, measured at its centre and corners.
 std::vector<Curvature> measured(const Lens& lens) {
-  constexpr int cells = LensCurvature::finest;
+  constexpr int cells = LensCurvature::cells_a_side;
   std::vector<Curvature> table(6 * cells * cells);
   tbb::parallel_for(0, 6 * cells, [&](int row) {
     for (int x = 0; x < cells; ++x) {
@@ -134,7 +134,7 @@ void mark(const Lens& lens, const glm::dvec2& pixel, std::vector<Curvature>& tab
   const auto found = lens.project(*ray);
   if (found && glm::distance(*found, pixel) < 0.25) return;
   const std::lock_guard lock(marking);
-  table[index_of(cell_of(*ray), LensCurvature::finest)] = unknown;
+  table[index_of(cell_of(*ray), LensCurvature::cells_a_side)] = unknown;
 }
 
 /// A lens may show a direction in two places of its image, most likely at its borders; `project` knows one of them.
@@ -154,39 +154,40 @@ void mark_what_project_misses(const Lens& lens, std::vector<Curvature>& table) {
   });
 }
 
-/// Each cell's bounds and those of all cells within reach of it, also on other faces.
-std::vector<Curvature> with_neighbours(const std::vector<Curvature>& table, int cells) {
-  std::vector<Curvature> result(table.size());
-  for (int face = 0; face < 6; ++face) {
-    for (int y = 0; y < cells; ++y) {
-      for (int x = 0; x < cells; ++x) {
-        Curvature& cell = result[(size_t(face) * size_t(cells) + size_t(y)) * size_t(cells) + size_t(x)];
-        cell = {0.0f, 0.0f, infinite};
-        // An angle is up to 1 + |place|^2 times as far on the face's plane.
-        const glm::dvec2 centre = (glm::dvec2(x, y) + 0.5) * (2.0 / cells) - 1.0;
-        const double far = LensCurvature::reach_in_cells * (1.0 + glm::dot(centre, centre)) + 0.55;
-        for (int i = 0; i < 49; ++i) {
-          const glm::dvec2 place = centre + far / 3.0 * glm::dvec2(i % 7 - 3, i / 7 - 3) * (2.0 / cells);
-          const Cell beside = cell_of(direction_of({face, place}));
-          cell = worse(cell, table[index_of(beside, cells)]);
-        }
-      }
-    }
+/// A circle around a cell's directions.
+struct CellCircle {
+  glm::dvec3 centre;
+  double angle;
+};
+
+std::vector<CellCircle> cell_circles() {
+  constexpr int cells = LensCurvature::cells_a_side;
+  std::vector<CellCircle> circles;
+  for (int i = 0; i < 6 * cells * cells; ++i) {
+    const int face = i / (cells * cells);
+    const auto at = [&](double x, double y) {
+      return direction_of({face, (glm::dvec2(i % cells + x, i / cells % cells + y)) * (2.0 / cells) - 1.0});
+    };
+    const glm::dvec3 centre = at(0.5, 0.5);
+    const double cosine = std::min({glm::dot(centre, at(0, 0)), glm::dot(centre, at(1, 0)), glm::dot(centre, at(0, 1)),
+                                    glm::dot(centre, at(1, 1))});
+    circles.push_back({centre, std::acos(cosine)});
   }
-  return result;
+  return circles;
 }
 
-std::vector<Curvature> coarser(const std::vector<Curvature>& table, int cells) {
-  const int half = cells / 2;
-  std::vector<Curvature> result(table.size() / 4, {0.0f, 0.0f, infinite});
-  for (int face = 0; face < 6; ++face) {
-    for (int y = 0; y < cells; ++y) {
-      for (int x = 0; x < cells; ++x) {
-        Curvature& cell = result[(size_t(face) * size_t(half) + size_t(y / 2)) * size_t(half) + size_t(x / 2)];
-        cell = worse(cell, table[(size_t(face) * size_t(cells) + size_t(y)) * size_t(cells) + size_t(x)]);
-      }
+/// Each cell's bounds and those of all cells within reach of any of its directions.
+std::vector<Curvature> within_reach(const std::vector<Curvature>& table, double reach) {
+  static const std::vector<CellCircle> circles = cell_circles();
+  std::vector<Curvature> result(table.size(), {0.0f, 0.0f, infinite});
+  tbb::parallel_for(size_t(0), table.size(), [&](size_t i) {
+    const double far = reach + circles[i].angle, cosine = std::cos(far), sine = std::sin(far);
+    for (size_t j = 0; j < table.size(); ++j) {
+      // The cosine of the sum of both angles, the other one small.
+      const double most = cosine * (1.0 - 0.5 * circles[j].angle * circles[j].angle) - sine * circles[j].angle;
+      if (glm::dot(circles[i].centre, circles[j].centre) >= most) result[i] = worse(result[i], table[j]);
     }
-  }
+  });
   return result;
 }
 
@@ -200,9 +201,7 @@ LensCurvature::LensCurvature(const Lens& lens) {
   std::vector<Curvature> table = measured(without_limit(lens));
   mark_what_project_misses(lens, table);
   for (int level = 0; level < levels; ++level) {
-    const int cells = finest >> level;
-    if (level > 0) table = coarser(table, 2 * cells);
-    const std::vector<Curvature> wide = with_neighbours(table, cells);
+    const std::vector<Curvature> wide = within_reach(table, reach(level));
     cells_.insert(cells_.end(), wide.begin(), wide.end());
   }
 }
@@ -213,11 +212,9 @@ Lens LensCurvature::without_limit(Lens lens) {
 }
 
 Curvature LensCurvature::around(const glm::dvec3& direction, double angle) const {
-  size_t first = 0;
   for (int level = 0; level < levels; ++level) {
-    const int cells = finest >> level;
-    if (angle <= reach(level)) return cells_[first + index_of(cell_of(direction), cells)];
-    first += size_t(6 * cells) * size_t(cells);
+    if (angle > reach(level)) continue;
+    return cells_[size_t(level) * 6 * cells_a_side * cells_a_side + index_of(cell_of(direction), cells_a_side)];
   }
   return unknown;
 }

@@ -26,12 +26,11 @@ struct Curvature {
 /// A table over directions for triangles of up to a few sizes. Any lens, measured on its formulae.
 class LensCurvature {
  public:
-  /// Cells along a side of a cube's face: of the table for the smallest triangles, and half as many for each next.
-  static constexpr int finest = 32;
+  /// Cells along a side of a cube's face.
+  static constexpr int cells_a_side = 24;
   static constexpr int levels = 5;
   /// Of all directions within this angle (radians) of one, the table of a level knows the bounds.
-  static constexpr double reach(int level) { return reach_in_cells * 2.0 / (finest >> level); }
-  static constexpr double reach_in_cells = 1.0 / 3.0;  ///< of those in a face's middle
+  static constexpr double reach(int level) { return (1 << level) / 48.0; }
 
   explicit LensCurvature(const Lens& lens);
 
