@@ -14,7 +14,8 @@ struct Variant {
 };
 
 const Variant variants[] = {
-    {{"hybrid", "a tree of cones over the image says where"}, make_hybrid_drawer},
+    {{"hybrid", "rasterized where the lens leaves it straight, else polygons and squares of the image around it"},
+     make_hybrid_drawer},
     {{"triangle", "up to four triangles around each, their sides along its curved edges"}, make_triangle_drawer},
     {{"quad", "a box around each"}, make_quad_drawer},
 };
