@@ -320,7 +320,7 @@ void add_render(CLI::App& tool) {
   add(picture, "--face-size", "N", options->face_size,
       "image-based: texels along a cube face, default the camera's density at its centre");
   add(picture, "--tolerance", "PX", options->tolerance,
-      "piecewise: how far pieces may be from the camera, pixels, default 0.25");
+      "piecewise, subdivision: how far pieces or edges may be from the camera's, pixels, default 0.25");
   add(picture, "--pieces", "N", options->pieces, "piecewise: about so many pieces of equal size instead");
   add(picture, "--tile", "N", options->tile, "Largest tile in pixels, default what the driver allows");
   const char* view = "View (without any: the scene's first camera, else its default view)";

@@ -78,6 +78,9 @@ struct LensInfo {
   std::optional<PlaneRectangle> (*frame)(const LensParameters&) = nullptr;
   /// Where the lens has folds or jumps: the parts of the plane within which it has none. Null: it is smooth.
   std::vector<PlanePolygon> (*parts)(const LensParameters&) = nullptr;
+  /// The same formula with parameters that see up to so many radians further, where it goes on. Null: only max_angle
+  /// ends what it sees.
+  LensParameters (*widened)(const LensParameters&, double angle) = nullptr;
   /// What is wrong with parameters that are each within their range, with what is accepted; null when nothing is.
   const char* (*contradiction)(const LensParameters&) = nullptr;
 };

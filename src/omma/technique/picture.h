@@ -42,7 +42,7 @@ struct RenderOptions {
   int samples = 4;                 ///< colour samples per pixel, 1 to 1024
   Filter filter = Filter::anisotropic;
   int face_size = 0;              ///< image-based: texels along a cube face, 0: the camera's density at its centre
-  PieceOptions pieces{};          ///< piecewise: how finely the camera is cut
+  PieceOptions pieces{};          ///< piecewise: how finely the camera is cut; its tolerance is subdivision's, too
   int tile = 0;                   ///< largest tile's side in pixels, 0: what the driver allows
   std::vector<Effect> effects{};  ///< on colour, one after another; up to max_effects, what is shown included
   std::set<Show> show{};          ///< over colour

@@ -9,6 +9,7 @@
 #include "omma/technique/piecewise/piecewise.h"
 #include "omma/technique/planar/planar.h"
 #include "omma/technique/raycast/raycast.h"
+#include "omma/technique/subdivision/subdivision.h"
 #include "omma/technique/vertex/vertex.h"
 #include "omma/technique/visibility/visibility.h"
 
@@ -16,8 +17,8 @@ namespace omma {
 namespace {
 
 const TechniqueEntry* const entries[] = {
-    &planar_technique,    &image_based_technique, &vertex_technique,  &piecewise_technique,
-    &nonlinear_technique, &visibility_technique,  &raycast_technique,
+    &planar_technique,    &image_based_technique, &vertex_technique,     &subdivision_technique,
+    &piecewise_technique, &nonlinear_technique,   &visibility_technique, &raycast_technique,
 };
 
 /// Throws CommandError for a name or variant that does not exist.
@@ -64,6 +65,9 @@ ChosenTechnique choose_technique(std::string_view text, const Camera& camera) {
   }
   if (chosen.entry == &planar_technique && !planar_draws(camera)) {
     throw CommandError("technique 'planar' draws the perspective camera only; use auto, raycast or image-based");
+  }
+  if (chosen.entry->refusal != nullptr) {
+    if (const auto why = chosen.entry->refusal(camera)) throw CommandError("technique '{}' {}", chosen.name(), *why);
   }
   return chosen;
 }

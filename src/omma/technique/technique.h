@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "omma/gl/context.h"
@@ -80,6 +81,8 @@ struct TechniqueEntry {
   TechniqueInfo info;
   /// Throws CommandError or MachineError when this camera or this driver will not do.
   std::unique_ptr<Technique> (*make)(DrawTools& tools, const std::string& variant);
+  /// Why this camera cannot be drawn, to go on after the technique's name; nothing where it can. Null: any can.
+  std::optional<std::string> (*refusal)(const Camera& camera) = nullptr;
 };
 
 }  // namespace omma

@@ -37,6 +37,17 @@ inline constexpr LensInfo equirectangular_info = {
       if (k[0] == -180 && k[1] == 180 && k[2] == -90 && k[3] == 90) return {};
       return PlaneRectangle{glm::radians(glm::dvec2(k[0], -k[3])), glm::radians(glm::dvec2(k[1], -k[2]))};
     },
+    .widened =
+        [](const LensParameters& parameters, double angle) {
+          LensParameters wide = parameters;
+          auto& k = wide.k;
+          const double degrees = glm::degrees(angle), aside = std::min(degrees, (360 - (k[1] - k[0])) / 2);
+          k[0] -= aside;
+          k[1] += aside;
+          k[2] = std::max(-90.0, k[2] - degrees);
+          k[3] = std::min(90.0, k[3] + degrees);
+          return wide;
+        },
     .contradiction = [](const LensParameters& parameters) -> const char* {
       const auto& k = parameters.k;
       if (!(k[0] < k[1] && k[1] - k[0] <= 360)) {
