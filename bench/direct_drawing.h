@@ -28,21 +28,21 @@ struct Work {
   bool rasterizes = true;  ///< false: what comes before the rasterizer alone
 };
 
-struct Measured {
-  double ms = 0.0;  ///< from the first command until the GPU is done
-  gl::Counts counts;
-};
-
 class DirectDrawing {
  public:
   /// Opens a GL context of its own. The scene must outlive this.
   explicit DirectDrawing(const Scene& scene);
 
-  /// Draws the passes one after another, one sample a pixel, textures trilinear. `shadowed`: lights shine past
-  /// paraboloid maps, which are drawn before the clock starts.
-  Measured draw(std::span<const Pass> passes, const Work& work, bool shadowed = false);
+  /// Draws the passes one after another, one sample a pixel, textures trilinear. Returns the milliseconds from the
+  /// first command until the GPU is done. `shadowed`: lights shine past paraboloid maps, which are drawn before the
+  /// clock starts.
+  double draw(std::span<const Pass> passes, const Work& work, bool shadowed = false);
+
+  /// What bounding shapes of the passes cover, hidden or not; zeros of techniques that have none.
+  BoundFragments bound_fragments(std::span<const Pass> passes);
 
  private:
+  Technique& technique(const Pass& pass);
   const Target& target(ImageSize size, Output output);
 
   gl::Context context_;

@@ -63,7 +63,7 @@ void compare_outputs(nlohmann::json& rows, const Options& options, DirectDrawing
   std::vector<std::function<double()>> runs;
   for (const Frame& frame : frames) {
     for (const Output output : outputs) {
-      runs.push_back([&, output] { return drawing.draw(frame.passes, {.output = output}).ms; });
+      runs.push_back([&, output] { return drawing.draw(frame.passes, {.output = output}); });
     }
   }
   const std::vector<Timing> timings = measure_in_turn(runs, options.runs);
@@ -122,18 +122,16 @@ void run_steps(nlohmann::json& rows, const Options& options, const std::string& 
   DirectDrawing plain(scene.plain), untextured(scene.untextured);
   // Each does more than the one before: a step is the difference.
   constexpr size_t modes = 5;
-  std::vector<Measured> counted(frames.size());
+  std::vector<BoundFragments> counted;
   std::vector<std::function<double()>> runs;
   for (size_t i = 0; i < frames.size(); ++i) {
     const auto& passes = frames[i].passes;
-    runs.push_back([&] { return plain.draw(passes, {.output = Output::depth, .rasterizes = false}).ms; });
-    runs.push_back([&] { return plain.draw(passes, {.output = Output::depth}).ms; });
-    runs.push_back([&] { return untextured.draw(passes, {}).ms; });
-    runs.push_back([&] { return plain.draw(passes, {}).ms; });
-    runs.push_back([&, i] {
-      counted[i] = plain.draw(passes, {}, true);
-      return counted[i].ms;
-    });
+    counted.push_back(plain.bound_fragments(passes));
+    runs.push_back([&] { return plain.draw(passes, {.output = Output::depth, .rasterizes = false}); });
+    runs.push_back([&] { return plain.draw(passes, {.output = Output::depth}); });
+    runs.push_back([&] { return untextured.draw(passes, {}); });
+    runs.push_back([&] { return plain.draw(passes, {}); });
+    runs.push_back([&] { return plain.draw(passes, {}, true); });
   }
   const std::vector<Timing> timings = measure_in_turn(runs, options.runs);
   const std::string title = fmt::format("{}, {} triangles", scene_name, scene.plain.triangle_count());
@@ -143,9 +141,8 @@ void run_steps(nlohmann::json& rows, const Options& options, const std::string& 
       "(10–90%) | × planar |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (size_t i = 0; i < frames.size(); ++i) {
     const Timing* t = &timings[modes * i];
-    const gl::Counts& counts = counted[i].counts;
-    const double touched = double(counts.fragments.value_or(0)), kept = double(counts.samples);
-    const double overdraw = kept > 0.0 && touched > 0.0 ? touched / kept - 1.0 : 0.0;
+    const auto touched = double(counted[i].touched), kept = double(counted[i].kept);
+    const double overdraw = kept > 0.0 ? touched / kept - 1.0 : 0.0;
     const Timing& total = t[modes - 1];
     const double ratio = ratio_of(total, timings[modes - 1]);
     fmt::print("| {} | {:.0f} | {:.0f} | {:.0f}% | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {} | {:.2f} |\n",
@@ -155,7 +152,7 @@ void run_steps(nlohmann::json& rows, const Options& options, const std::string& 
     row["table"] = title;
     row["frame"] = frames[i].label;
     row["fragments_touched"] = touched;
-    row["samples_kept"] = kept;
+    row["fragments_kept"] = kept;
     row["overdraw"] = overdraw;
     row["up_to_ms"] = {t[0].median, t[1].median, t[2].median, t[3].median, t[4].median};
     row["times_planar"] = ratio;
@@ -195,7 +192,7 @@ void run_against_cube_map(nlohmann::json& rows, const Options& options, const st
   }
   frames.push_back({"planar, 90°", {{make_camera("perspective:fov_deg=90", ImageSize{512, 512}), pose, "planar"}}});
   std::vector<std::function<double()>> runs;
-  for (const Frame& frame : frames) runs.push_back([&] { return drawing.draw(frame.passes, {}).ms; });
+  for (const Frame& frame : frames) runs.push_back([&] { return drawing.draw(frame.passes, {}); });
   const std::vector<Timing> timings = measure_in_turn(runs, options.runs);
   const std::string title = fmt::format("{}, {} triangles, 512², colour", scene_name, scene.triangle_count());
   fmt::print("\n{}\n\n| frame | ms (10–90%) | × image-based | × planar |\n|---|---|---|---|\n", title);
