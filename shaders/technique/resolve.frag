@@ -1,6 +1,7 @@
 // A visible triangle and a ray as a Surface.
 #include "technique/visible.glsl"
 #include "technique/triangle_record.glsl"
+#include "technique/triangle_surface.glsl"
 #include "shading/output.glsl"
 
 layout(binding = 11) uniform samplerBuffer triangle_records;

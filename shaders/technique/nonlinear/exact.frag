@@ -5,7 +5,7 @@
 #endif
 #include "shading/output.glsl"
 #include "technique/nonlinear/exact_coverage.glsl"
-#include "technique/triangle.glsl"
+#include "technique/triangle_surface.glsl"
 
 // The rasterized depth is the nearest that the triangle has: where even that is hidden, no fragment needs to run.
 layout(depth_less) out float gl_FragDepth;

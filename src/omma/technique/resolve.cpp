@@ -37,8 +37,8 @@ void Resolver::draw_over(const View& view, const VisibleTriangles& visible) {
 }
 
 gl::Defines Resolver::record_defines(const View& view) const {
-  gl::Defines defines = camera_defines(view.camera);
-  defines.merge(effect_defines(view.effects));
+  gl::Defines defines;
+  if (!view.effects.empty()) defines["EFFECTS"] = "";
   if (has_colors_) defines["TRIANGLE_COLORS"] = "";
   if (has_tangents_) defines["TRIANGLE_TANGENTS"] = "";
   return defines;
@@ -108,7 +108,8 @@ void Resolver::draw_surfaces(const View& view) {
   tools_.counters.begin();
   for (const auto& [material, squares] : squares_.squares()) {
     if (material == VisibleSquares::background) continue;
-    gl::Defines defines = record_defines(view);
+    gl::Defines defines = camera_defines(view.camera);
+    defines.merge(record_defines(view));
     defines.merge(tools_.surface_defines(view, material));
     const gl::Program& program = tools_.programs.get(
         {{GL_VERTEX_SHADER, "technique/material_tile.vert"}, {GL_FRAGMENT_SHADER, "technique/resolve.frag"}}, defines);
