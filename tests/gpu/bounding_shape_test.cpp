@@ -78,16 +78,8 @@ struct Answer {
 };
 
 gl::Program link(const Camera& camera) {
-  const std::string text = gl::assemble_shader("common/camera.glsl", camera_defines(camera)) +
-                           std::string(gl::shader_files().at("bounds/bounding_shape.h")) + body;
-  const char* source = text.c_str();
-  gl::Program program = gl::Program::wrap(glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &source));
-  GLint linked = 0;
-  glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
-  std::string log(4096, '\0');
-  glGetProgramInfoLog(program.id(), GLsizei(log.size()), nullptr, log.data());
-  EXPECT_TRUE(linked) << log;
-  return program;
+  return link_compute(gl::assemble_shader("common/camera.glsl", camera_defines(camera)) +
+                      std::string(gl::shader_files().at("bounds/bounding_shape.h")) + body);
 }
 
 TEST(BoundingShapesInGlsl, EncloseEveryPointOfRandomTriangles) {

@@ -77,6 +77,17 @@ bool can_draw(const std::string& technique, const Camera& camera) {
 
 glm::dmat4 default_pose(const Scene& scene) { return look_at_worldFromCamera(scene.default_from, scene.default_to); }
 
+gl::Program link_compute(const std::string& text) {
+  const char* source = text.c_str();
+  gl::Program program = gl::Program::wrap(glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &source));
+  GLint linked = 0;
+  glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
+  std::string log(4096, '\0');
+  glGetProgramInfoLog(program.id(), GLsizei(log.size()), nullptr, log.data());
+  EXPECT_TRUE(linked) << log;
+  return program;
+}
+
 std::string test_name(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "omma/camera/camera.h"
+#include "omma/gl/program.h"
 #include "omma/scene/scene.h"
 #include "omma/technique/renderer.h"
 
@@ -40,6 +41,9 @@ bool can_draw(const std::string& technique, const Camera& camera);
 
 /// Where the scene says to stand.
 glm::dmat4 default_pose(const Scene& scene);
+
+/// A compute program of this text. The test fails with the linker's words where it does not link.
+gl::Program link_compute(const std::string& text);
 
 /// A name that GoogleTest accepts.
 std::string test_name(std::string text);

@@ -94,4 +94,18 @@ Material unlit(const glm::vec4& color) {
 
 glm::dmat4 translation(const glm::dvec3& by) { return glm::translate(glm::dmat4(1.0), by); }
 
+Scene make_ball_and_pane() {
+  SceneMaker maker;
+  maker.place(maker.add(make_ball(1.0f, maker.add(unlit({1, 0, 0, 1})))), translation({0, 0, -4}));
+  maker.place(maker.add(make_pane(-6.0f, 3.0f, maker.add(unlit({0, 1, 0, 1})))));
+  return maker.finish();
+}
+
+void move_ball(Scene& scene, int frame, std::mt19937& random) {
+  std::uniform_real_distribution<double> place(-3.0, 3.0);
+  const double x = place(random), y = place(random), z = place(random) - 5.0;
+  scene.instances[0].worldFromObject =
+      glm::scale(translation({x, y, z}), glm::dvec3(frame % 2 == 0 ? 1.0 : -1.0, 1.0, 1.0));
+}
+
 }  // namespace omma

@@ -1,6 +1,8 @@
 // Scenes by hand, small enough to know every number of.
 #pragma once
 
+#include <random>
+
 #include "omma/scene/scene.h"
 
 namespace omma {
@@ -35,5 +37,10 @@ Mesh make_ball(float radius, int material);
 Material unlit(const glm::vec4& color);
 
 glm::dmat4 translation(const glm::dvec3& by);
+
+/// A red ball, instance 0, before a green pane.
+Scene make_ball_and_pane();
+/// Moves the ball somewhere else in every frame, mirrored every other time: windings turn, and the order of the draws.
+void move_ball(Scene& scene, int frame, std::mt19937& random);
 
 }  // namespace omma

@@ -46,21 +46,10 @@ struct Answer {
   glm::vec4 direction, dx, dy, projected;
 };
 
-gl::Program link(const std::string& text) {
-  const char* source = text.c_str();
-  gl::Program program = gl::Program::wrap(glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &source));
-  GLint linked = 0;
-  glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
-  std::string log(4096, '\0');
-  glGetProgramInfoLog(program.id(), GLsizei(log.size()), nullptr, log.data());
-  EXPECT_TRUE(linked) << log;
-  return program;
-}
-
 class LensGlslTest : public ::testing::Test {
  protected:
   std::vector<Answer> ask(const Camera& camera, const std::vector<Query>& queries) {
-    const gl::Program program = link(gl::assemble_shader("common/camera.glsl", camera_defines(camera)) + body);
+    const gl::Program program = link_compute(gl::assemble_shader("common/camera.glsl", camera_defines(camera)) + body);
     set_camera(program, {.camera = camera, .worldFromCamera = glm::dmat4(1.0), .tile = {}});
     glProgramUniform2f(program.id(), program.location("pixel_offset"), 0.0f, 0.0f);
     CameraTextures textures;

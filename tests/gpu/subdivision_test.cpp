@@ -92,18 +92,12 @@ TEST_F(SubdivisionTest, ASmallerToleranceIsNearerToRaycast) {
 }
 
 TEST_F(SubdivisionTest, FollowsASceneThatChangesEveryFrame) {
-  SceneMaker maker;
-  maker.place(maker.add(make_ball(1.0f, maker.add(unlit({1, 0, 0, 1})))), translation({0, 0, -4}));
-  maker.place(maker.add(make_pane(-6.0f, 3.0f, maker.add(unlit({0, 1, 0, 1})))));
-  Scene scene = maker.finish();
+  Scene scene = make_ball_and_pane();
   renderer().load(scene);
   const Camera camera = make_camera("cylinder:fov_deg=360", ImageSize{200, 120});
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-3.0, 3.0);
   for (int frame = 0; frame < 6; ++frame) {
-    // Mirrored every other time: windings turn, and with them the order of the draws.
-    const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), {place(random), place(random), place(random) - 5.0});
-    scene.instances[0].worldFromObject = glm::scale(moved, glm::dvec3(frame % 2 == 0 ? 1.0 : -1.0, 1.0, 1.0));
+    move_ball(scene, frame, random);
     renderer().update();
     const IntImage picture = ids(camera, glm::dmat4(1.0), 0.05);
     EXPECT_LT(share_of_differences(picture, draw_ids(camera, glm::dmat4(1.0), "raycast")), 5e-3) << frame;

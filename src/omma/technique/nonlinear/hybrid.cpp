@@ -44,24 +44,18 @@ class HybridDrawer : public BoundDrawer {
   }
 
   void draw_solid(const View& view, const ExactStage& exact) {
-    std::vector<const ClusterGroup*> groups;
-    std::vector<glm::uvec2> ranges;
-    for (const ClusterGroup& group : clusters_.groups()) {
-      if (group.blended && !view.labels()) continue;
-      groups.push_back(&group);
-      ranges.push_back(SceneClusters::cluster_triangles * glm::uvec2(group.first_cluster, group.last_cluster));
-    }
-    if (groups.empty()) return;
+    const DrawnGroups drawn = clusters_.unordered(view.labels());
+    if (drawn.groups.empty()) return;
     const auto draw = [&](Forms forms, Replicator& replicator, const MeshPass& pass) {
       tiles_.look_for(forms);
-      replicator.replicate_clusters(tiles_, clusters_, groups.back()->last_cluster);
+      replicator.replicate_clusters(tiles_, clusters_, drawn.clusters);
       if (replicator.replica_count() == 0) return;
-      replicator.prepare_draws(ranges);
+      replicator.prepare_draws(drawn.ranges);
       tools_.timer.mark("draw");
       const SurfaceState state(tools_, false);
       replicator.bind();
-      for (size_t i = 0; i < groups.size(); ++i) {
-        use_material(tools_, pass, view, groups[i]->material, groups[i]->mirrored);
+      for (size_t i = 0; i < drawn.groups.size(); ++i) {
+        use_material(tools_, pass, view, drawn.groups[i].material, drawn.groups[i].mirrored);
         replicator.draw(i);
       }
     };

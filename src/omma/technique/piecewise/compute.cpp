@@ -19,24 +19,18 @@ class ComputeDrawer : public PieceDrawer {
 
  private:
   void draw_solid(const View& view, const GpuPieces& pieces) {
-    std::vector<const ClusterGroup*> groups;
-    std::vector<glm::uvec2> ranges;
-    for (const ClusterGroup& group : clusters_.groups()) {
-      if (group.blended && !view.labels()) continue;
-      groups.push_back(&group);
-      ranges.push_back(SceneClusters::cluster_triangles * glm::uvec2(group.first_cluster, group.last_cluster));
-    }
-    if (groups.empty()) return;
-    solid_.replicate_clusters(pieces, clusters_, groups.back()->last_cluster);
-    solid_.prepare_draws(ranges);
+    const DrawnGroups drawn = clusters_.unordered(view.labels());
+    if (drawn.groups.empty()) return;
+    solid_.replicate_clusters(pieces, clusters_, drawn.clusters);
+    solid_.prepare_draws(drawn.ranges);
 
     tools_.timer.mark("draw");
     const PieceClipping clipping;
     const SurfaceState state(tools_, false);
     solid_.bind();
     const MeshPass pass = replica_pass(pieces, {{GL_VERTEX_SHADER, "technique/piecewise/replica.vert"}});
-    for (size_t i = 0; i < groups.size(); ++i) {
-      use_material(tools_, pass, view, groups[i]->material, groups[i]->mirrored);
+    for (size_t i = 0; i < drawn.groups.size(); ++i) {
+      use_material(tools_, pass, view, drawn.groups[i].material, drawn.groups[i].mirrored);
       solid_.draw(i);
     }
   }

@@ -108,4 +108,15 @@ void SceneClusters::narrow(DrawTools& tools, const ConeTree& tree) {
   ranges_.bind(25);
 }
 
+DrawnGroups SceneClusters::unordered(bool labels) const {
+  DrawnGroups drawn;
+  for (const ClusterGroup& group : groups_) {
+    if (group.blended && !labels) continue;
+    drawn.groups.push_back(group);
+    drawn.ranges.push_back(cluster_triangles * glm::uvec2(group.first_cluster, group.last_cluster));
+    drawn.clusters = group.last_cluster;
+  }
+  return drawn;
+}
+
 }  // namespace omma

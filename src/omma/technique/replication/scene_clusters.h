@@ -20,6 +20,13 @@ struct ClusterGroup {
   friend bool operator==(const ClusterGroup&, const ClusterGroup&) = default;
 };
 
+/// Groups and, of each, the range of its slots in a list of replicas, the last one excluded.
+struct DrawnGroups {
+  std::vector<ClusterGroup> groups;
+  std::vector<glm::uvec2> ranges;
+  uint32_t clusters = 0;  ///< from the first on, that hold them all
+};
+
 class SceneClusters {
  public:
   static constexpr uint32_t cluster_triangles = 64;
@@ -36,6 +43,8 @@ class SceneClusters {
 
   /// Blended ones last.
   const std::vector<ClusterGroup>& groups() const { return groups_; }
+  /// Those that need no order: all but blended ones, for labels these too.
+  DrawnGroups unordered(bool labels) const;
   uint32_t cluster_count() const { return cluster_count_; }
   uint32_t solid_cluster_count() const { return solid_cluster_count_; }
   size_t bytes() const { return parts_.bytes() + clusters_.bytes() + ranges_.bytes(); }
