@@ -16,6 +16,7 @@
 #include "omma/base/error.h"
 #include "omma/gl/context.h"
 #include "omma/math/pose.h"
+#include "omma/technique/registry.h"
 #include "omma/technique/renderer.h"
 
 namespace omma::tool {
@@ -111,7 +112,11 @@ void run() {
   print_machine();
   print_versions();
   print_devices();
-  print_context(gl::Context());
+  try {
+    print_context(gl::Context());
+  } catch (const MachineError& error) {
+    throw MachineError("{}\n{}", error.what(), what_works_without_gl());
+  }
   if (!try_techniques()) throw MachineError("some techniques do not work on this machine, as listed");
 }
 

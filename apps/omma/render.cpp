@@ -86,13 +86,13 @@ class Job {
         overwrite_(options.overwrite) {
     if (stats_path_) require_writable(*stats_path_);
     require_patterns(options.view.pose.has_value());
-    check_show(render_options_.show, choose_technique(render_options_.technique, camera_));
     for (const Output& output : outputs_) {
       if (std::find(channels_.begin(), channels_.end(), output.channel) == channels_.end()) {
         channels_.push_back(output.channel);
       }
     }
     const bool has_color = std::find(channels_.begin(), channels_.end(), Channel::color) != channels_.end();
+    check_show(render_options_.show, choose_technique(render_options_.technique, camera_, has_color));
     if ((!effects_of(render_options_).empty() || !render_options_.show.empty()) && !has_color) {
       throw CommandError("--effect and --show change the colour alone, and no -o asks for it");
     }
@@ -187,7 +187,7 @@ class Job {
 
   void render(const std::vector<Frame>& frames, JobStats& stats) {
     require_camera_files(frames);
-    auto begin = std::chrono::steady_clock::now();
+    const auto begin = std::chrono::steady_clock::now();
     Scene scene = load_scene(scene_text_);
     if (view_.names_time() && scene.animations.empty()) {
       warn(fmt::format("{}: has no animation, the time changes nothing", scene_text_));
@@ -200,13 +200,11 @@ class Job {
     view_.worldFromCamera(scene, frames.front());  // fails before anything slow
     stats.load_ms = milliseconds_since(begin);
 
-    begin = std::chrono::steady_clock::now();
     Renderer renderer;
     renderer.load(scene);
-    stats.upload_ms = milliseconds_since(begin);
-
     if (frames.size() == 1) {
       stats.frames.push_back(render_frame(renderer, scene, frames.front()));
+      stats.setup_ms = stats.frames.back().render.setup_ms;
       report(stats.frames.back());
       return;
     }
@@ -214,6 +212,7 @@ class Job {
     for (const Frame& frame : frames) {
       if (view_.apply_time(scene, frame)) renderer.update();
       FrameStats frame_stats = render_frame(renderer, scene, frame);
+      stats.setup_ms += frame_stats.render.setup_ms;
       if (stats_path_) stats.frames.push_back(std::move(frame_stats));
       progress.step();
     }
@@ -227,7 +226,7 @@ class Job {
     const glm::dmat4 worldFromCamera = view_.worldFromCamera(scene, frame);
     const std::map<Channel, Image> images =
         renderer.render(camera, worldFromCamera, channels_, render_options_, &stats.render);
-    stats.render_ms = milliseconds_since(begin);
+    stats.render_ms = milliseconds_since(begin) - stats.render.setup_ms;
 
     begin = std::chrono::steady_clock::now();
     const std::optional<PanoramaPlace> panorama = panorama_place(camera, worldFromCamera);

@@ -44,9 +44,9 @@ void write_stats(const std::filesystem::path& path, const JobStats& stats) {
   Json frames = Json::array();
   for (const FrameStats& frame : stats.frames) frames.push_back(to_json(frame));
   const Json json{
-      {"omma", OMMA_VERSION},        {"scene", stats.scene},         {"camera", stats.camera},
-      {"width", stats.size.width},   {"height", stats.size.height},  {"samples", stats.samples},
-      {"load_ms", stats.load_ms},    {"upload_ms", stats.upload_ms}, {"frames_skipped", stats.skipped},
+      {"omma", OMMA_VERSION},        {"scene", stats.scene},        {"camera", stats.camera},
+      {"width", stats.size.width},   {"height", stats.size.height}, {"samples", stats.samples},
+      {"load_ms", stats.load_ms},    {"setup_ms", stats.setup_ms},  {"frames_skipped", stats.skipped},
       {"frames", std::move(frames)},
   };
   // Paths may hold any bytes.

@@ -21,9 +21,9 @@ struct JobStats {
   std::string scene, camera;
   ImageSize size;
   int samples = 0;
-  double load_ms = 0.0;    ///< wall clock: reading the scene
-  double upload_ms = 0.0;  ///< wall clock: opening the GL context, moving the scene to the GPU
-  int skipped = 0;         ///< frames whose files were there already
+  double load_ms = 0.0;   ///< wall clock: reading the scene
+  double setup_ms = 0.0;  ///< wall clock: opening a GL context, handing the scene over, with the first frames
+  int skipped = 0;        ///< frames whose files were there already
   std::vector<FrameStats> frames;
 };
 

@@ -1,4 +1,5 @@
 // What this machine cannot do is said as such: exit code 4, and nothing half-written is left.
+#include "omma/base/file.h"
 #include "tests/cli/tool.h"
 
 namespace omma {
@@ -16,9 +17,43 @@ std::vector<std::string> with(std::vector<std::string> words, const std::vector<
   return words;
 }
 
-TEST_F(Machine, NoUsableGlIsSaid) {
-  expect_refusal(with(small_render, {"-o", "a.png"}), 4, {"EGL"}, no_gl);
-  expect_refusal({"doctor"}, 4, {"EGL"}, no_gl);
+TEST_F(Machine, NoUsableGlIsSaid) { expect_refusal({"doctor"}, 4, {"EGL", "every channel but color"}, no_gl); }
+
+TEST_F(Machine, ColourWithoutGlIsRefusedWithWhatWorks) {
+  for (const char* technique : {"auto", "visibility", "raycast"}) {
+    expect_refusal(with(small_render, {"-o", "a.png", "-o", "d.npy:distance", "--technique", technique}), 4,
+                   {"EGL", "visibility:cpu", "every channel but color", "distance, z, normal"}, no_gl);
+  }
+  expect_refusal(with(small_render, {"-o", "a.npy:id", "--technique", "raycast"}), 4, {"EGL", "auto"}, no_gl);
+}
+
+TEST_F(Machine, EveryChannelButColourNeedsNoGl) {
+  const std::vector<std::string> wanted{"-o", "a/d.npy:distance", "-o", "a/z.npy:z",       "-o", "a/n.npy:normal",
+                                        "-o", "a/p.npy:position", "-o", "a/uv.npy:uv",     "-o", "a/id.npy:id",
+                                        "-o", "a/o.npy:object",   "-o", "a/m.npy:material"};
+  const auto into = [&](const std::string& folder, const std::string& technique) {
+    std::filesystem::create_directory(file(folder));
+    std::vector<std::string> words = with(small_render, {"--technique", technique});
+    for (const std::string& word : wanted) words.push_back(word[0] == 'a' ? folder + word.substr(1) : word);
+    return words;
+  };
+  const ToolResult result = run(into("a", "auto"), no_gl);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("visibility:cpu on the processor"), std::string::npos) << result.err;
+  ASSERT_EQ(run(into("b", "visibility"), no_gl).exit_code, 0);
+  ASSERT_EQ(run(into("c", "auto")).exit_code, 0);
+  for (const char* name : {"d.npy", "z.npy", "n.npy", "p.npy", "uv.npy", "id.npy", "o.npy", "m.npy"}) {
+    for (const char* other : {"b/", "c/"}) {
+      EXPECT_TRUE(read_file(file(std::string("a/") + name)) == read_file(file(std::string(other) + name)))
+          << other << name;
+    }
+  }
+  // Flat cameras, ray maps and sequences, too.
+  ASSERT_EQ(run({"camera", "perspective:fov_deg=80", "--size", "64x48", "--rays", "rays.npy"}, no_gl).exit_code, 0);
+  for (const char* camera : {"perspective:fov_deg=80", "rays.npy"}) {
+    EXPECT_EQ(run({"render", "room", "--camera", camera, "-o", "e.npy:id"}, no_gl).exit_code, 0) << camera;
+  }
+  EXPECT_EQ(run(with(small_render, {"--frames", "2", "-o", "f_%d.npy:id"}), no_gl).exit_code, 0);
 }
 
 TEST_F(Machine, WhatNeedsNoGlWorksWithout) {

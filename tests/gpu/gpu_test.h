@@ -50,7 +50,10 @@ std::string test_name(std::string text);
 
 class GpuTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { renderer_ = std::make_unique<Renderer>(); }
+  static void SetUpTestSuite() {
+    renderer_ = std::make_unique<Renderer>();
+    renderer_->open_gl();
+  }
   static void TearDownTestSuite() { renderer_.reset(); }
 
   static Renderer& renderer() { return *renderer_; }

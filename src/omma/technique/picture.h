@@ -65,14 +65,15 @@ struct BoundFragments {
 
 /// What a picture took. Times are milliseconds, of the GPU's own clock where there is a GPU.
 struct RenderStats {
-  std::string technique;                     ///< the one that drew, `name:variant`
-  std::string renderer;                      ///< the GL renderer
-  size_t triangles = 0;                      ///< in the scene
+  std::string technique;  ///< the one that drew, `name:variant`
+  std::string renderer;   ///< the GL renderer, or the processor where there is none
+  double setup_ms = 0.0;  ///< wall clock: opening a GL context, handing the scene over; 0 when that was done before
+  size_t triangles = 0;   ///< in the scene
   size_t triangles_drawn = 0;                ///< primitives that reached the rasterizer for surfaces, over all passes
   std::optional<uint64_t> fragments_shaded;  ///< for surfaces; nothing where the driver does not count
   uint64_t samples_kept = 0;                 ///< of those, samples that passed the depth test and were no hole
   std::optional<BoundFragments> bound_fragments;  ///< nonlinear, where RenderOptions asks for it
-  size_t buffer_bytes = 0;                        ///< on the GPU: geometry, textures, targets
+  size_t buffer_bytes = 0;                        ///< geometry, textures, targets, trees; on the GPU or beside it
   size_t pieces = 0;                              ///< piecewise: that make up the image
   double piece_error_px = 0.0;                    ///< piecewise: from the camera, at most
   int tiles = 0;
@@ -84,6 +85,7 @@ struct VariantInfo {
   std::string name;
   std::string description;
   bool needs_project = false;  ///< cannot draw a ray map, whatever its technique's other variants can
+  bool without_gl = false;     ///< draws every channel but color without OpenGL
 };
 
 struct TechniqueInfo {

@@ -12,6 +12,7 @@
 #include "omma/technique/subdivision/subdivision.h"
 #include "omma/technique/vertex/vertex.h"
 #include "omma/technique/visibility/visibility.h"
+#include "omma/visibility/channel_renderer.h"
 
 namespace omma {
 namespace {
@@ -42,19 +43,45 @@ ChosenTechnique find(std::string_view text) {
   throw CommandError("{}", unknown_name("technique", name, names));
 }
 
+/// Null when it has none.
+const VariantInfo* variant_info(const ChosenTechnique& chosen) {
+  const std::vector<VariantInfo>& variants = chosen.entry->info.variants;
+  const auto found = std::find_if(variants.begin(), variants.end(),
+                                  [&](const VariantInfo& info) { return info.name == chosen.variant; });
+  return found == variants.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 bool ChosenTechnique::needs_project() const {
-  const std::vector<VariantInfo>& variants = entry->info.variants;
-  return entry->info.needs_project || std::any_of(variants.begin(), variants.end(), [&](const VariantInfo& info) {
-           return info.name == variant && info.needs_project;
-         });
+  const VariantInfo* info = variant_info(*this);
+  return entry->info.needs_project || (info != nullptr && info->needs_project);
+}
+
+bool ChosenTechnique::draws_without_gl() const {
+  const VariantInfo* info = variant_info(*this);
+  return info != nullptr && info->without_gl;
 }
 
 std::span<const TechniqueEntry* const> technique_entries() { return entries; }
 
-ChosenTechnique choose_technique(std::string_view text, const Camera& camera) {
+std::string what_works_without_gl() {
+  std::string techniques, names;
+  for (const TechniqueEntry* entry : entries) {
+    for (const VariantInfo& variant : entry->info.variants) {
+      if (variant.without_gl) techniques += fmt::format(" and {}:{}", entry->info.name, variant.name);
+    }
+  }
+  for (const ChannelInfo& info : channels()) {
+    if (!is_shaded(info.channel)) names += fmt::format("{}{}", names.empty() ? "" : ", ", info.name);
+  }
+  return fmt::format("without OpenGL, technique auto{} draw every channel but color: {}", techniques, names);
+}
+
+ChosenTechnique choose_technique(std::string_view text, const Camera& camera, bool colored) {
   if (text == "auto") {
+    // Nothing but shading needs a GPU, and opening one takes longer than a picture.
+    if (!colored) return find(visibility_technique.info.name);
     // A flat camera is what GPUs are made for; every other gets the exact picture.
     return find(planar_draws(camera) ? planar_technique.info.name : raycast_technique.info.name);
   }

@@ -23,19 +23,22 @@ void check_technique(std::string_view technique);
 
 class Renderer {
  public:
-  /// Opens a GL context of its own. Throws MachineError when there is none to be had.
   Renderer();
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Uploads the scene. The scene must outlive the renderer or the next call of load.
+  /// The scene must outlive the renderer or the next call of load.
   void load(const Scene& scene);
+  /// Opens a GL context of its own and uploads the scene, if there is one; otherwise the first picture that is drawn
+  /// with OpenGL does. Throws MachineError when there is no context to be had.
+  void open_gl();
   /// Takes over what set_time changed: transforms, lights, deformed vertices.
   void update();
 
-  /// The image of every channel asked for. `worldFromCamera` is rigid. Throws CommandError for options that make no
-  /// sense or do not go together, MachineError for what this driver cannot do.
+  /// The image of every channel asked for. `worldFromCamera` is rigid. Without colour, `auto` and `visibility:cpu` need
+  /// no OpenGL and open none. Throws CommandError for options that make no sense or do not go together, MachineError
+  /// for what this driver cannot do.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const RenderOptions& options,
                                   RenderStats* stats = nullptr);

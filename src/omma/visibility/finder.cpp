@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "omma/visibility/find_blocks.h"
-
 namespace omma {
 namespace {
 
@@ -51,14 +49,20 @@ void find(const RayTree& rays, const BlockQuery& query, const BlockSource& sourc
 
 }  // namespace
 
+void Finder::each_block(const RayTree& rays, Solid solid,
+                        const std::function<void(const RayBlock&, const BlockPicture&)>& each) const {
+  const BlockQuery query{.scene = &scene_, .solid = solid};
+  find(rays, query, {},
+       [&](const RayBlock& block, const BlockPicture& picture, std::span<const BlockLayer>) { each(block, picture); });
+}
+
 void Finder::nearest(const RayTree& rays, Solid solid, std::span<glm::uvec2> triangles,
                      std::span<float> distances) const {
   each_blank_row(rays, [&](size_t first, size_t count) {
     std::fill_n(&triangles[first], count, glm::uvec2(meets_nothing, no_ray));
     if (!distances.empty()) std::fill_n(&distances[first], count, infinity);
   });
-  const BlockQuery query{.scene = &scene_, .solid = solid};
-  find(rays, query, {}, [&](const RayBlock& block, const BlockPicture& picture, std::span<const BlockLayer>) {
+  each_block(rays, solid, [&](const RayBlock& block, const BlockPicture& picture) {
     each_pixel(block, rays.size(), [&](int leaf, int ray, size_t pixel) {
       triangles[pixel] = {picture.triangle[leaf][ray], picture.instance[leaf][ray]};
       if (distances.empty()) return;

@@ -6,10 +6,12 @@
 // distance the one with the lower id.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "omma/scene/scene.h"
+#include "omma/visibility/find_blocks.h"
 #include "omma/visibility/placed_scene.h"
 #include "omma/visibility/ray_hit.h"
 #include "omma/visibility/ray_tree.h"
@@ -31,6 +33,10 @@ class Finder {
   /// +inf where there is none. The result is the same, to the bit, on any number of threads.
   void nearest(const RayTree& rays, Solid solid, std::span<glm::uvec2> triangles,
                std::span<float> distances = {}) const;
+
+  /// Calls `each`, on several threads at once, for every block in which there is a ray, with what its rays meet.
+  void each_block(const RayTree& rays, Solid solid,
+                  const std::function<void(const RayBlock&, const BlockPicture&)>& each) const;
 
   /// All blended surfaces nearer than `distances` on each ray, nearest first.
   std::vector<std::vector<RayHit>> blended(const RayTree& rays, std::span<const float> distances) const;

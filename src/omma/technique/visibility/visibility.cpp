@@ -63,7 +63,9 @@ const TechniqueEntry visibility_technique{
          "camera",
      .exact = true,
      .needs_project = false,
-     .variants = {{"cpu", "on the processor, with SIMD and all cores"}}},
+     .variants = {{.name = "cpu",
+                   .description = "on the processor, with SIMD and all cores; OpenGL for colour alone",
+                   .without_gl = true}}},
     [](DrawTools& tools, const std::string&) -> std::unique_ptr<Technique> {
       return std::make_unique<Visibility>(tools);
     }};

@@ -1,0 +1,226 @@
+#include "omma/technique/gpu_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "omma/base/error.h"
+#include "omma/math/tiles.h"
+
+namespace omma {
+
+/// The samples of a picture as passes of up to the driver's samples each.
+struct GpuRenderer::Passes {
+  Passes(int samples, bool multisamples, int driver_samples);
+  int samples = 1;  ///< in each pass
+  std::vector<glm::dvec2> shifts;
+};
+
+namespace {
+
+/// A tile's images are many (samples, depth, channels); larger tiles gain nothing.
+constexpr int preferred_tile = 4096;
+
+/// The R2 sequence (Roberts 2018): any first n points are spread evenly.
+glm::dvec2 spread_point(int i) {
+  return glm::fract(glm::dvec2(0.5) + double(i) * glm::dvec2(0.7548776662466927, 0.5698402909980532)) - 0.5;
+}
+
+Image make_image(Channel channel, ImageSize size) {
+  const ChannelInfo& info = channel_info(channel);
+  if (info.integer) return IntImage(size, info.components);
+  return FloatImage(size, info.components);
+}
+
+void paste(const Image& tile, const PixelRect& place, Image& whole) {
+  std::visit(
+      [&](const auto& part) {
+        auto& image = std::get<std::decay_t<decltype(part)>>(whole);
+        for (int y = 0; y < part.size.height; ++y) {
+          std::copy_n(part.at(0, y), size_t(part.size.width) * size_t(part.components),
+                      image.at(place.x0, place.y0 + y));
+        }
+      },
+      tile);
+}
+
+}  // namespace
+
+GpuRenderer::Passes::Passes(int wanted, bool multisamples, int driver_samples) {
+  if (multisamples) {
+    // Drivers have powers of two.
+    while (samples * 2 <= std::min(wanted, driver_samples)) samples *= 2;
+  }
+  const int count = (wanted + samples - 1) / samples;
+  // The driver's own sample positions are spread over the pixel; a pass shifts them within the gap between two.
+  const double gap = 1.0 / std::sqrt(double(samples));
+  for (int i = 0; i < count; ++i) {
+    // On the grid of pieces, where it is decided in whole numbers whose a sample is.
+    const glm::dvec2 shift = glm::round(gap * spread_point(i) * double(piece_grid)) / double(piece_grid);
+    shifts.push_back(count == 1 ? glm::dvec2(0.0) : shift);
+  }
+}
+
+GpuRenderer::GpuRenderer() {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_DEPTH_CLAMP);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+// Objects are deleted in the context that is current, which may be another renderer's.
+GpuRenderer::~GpuRenderer() { context_.make_current(); }
+
+void GpuRenderer::load(const Scene& scene) {
+  context_.make_current();
+  techniques_.clear();
+  shadow_maps_.reset();
+  reflection_maps_.reset();
+  tools_.reset();
+  gpu_scene_ = std::make_unique<GpuScene>(scene, context_);
+  tools_ = std::unique_ptr<DrawTools>(new DrawTools{context_, *gpu_scene_});
+  shadow_maps_ = std::make_unique<ShadowMaps>(*tools_, *gpu_scene_);
+  reflection_maps_ = std::make_unique<ReflectionMaps>(*tools_, *gpu_scene_);
+}
+
+void GpuRenderer::update() {
+  context_.make_current();
+  gpu_scene_->update();
+  for (auto& [name, technique] : techniques_) technique->scene_changed();
+  shadow_maps_->scene_changed();
+  reflection_maps_->scene_changed();
+}
+
+Technique& GpuRenderer::technique_for(const ChosenTechnique& chosen) {
+  std::unique_ptr<Technique>& technique = techniques_[chosen.name()];
+  if (!technique) technique = chosen.entry->make(*tools_, chosen.variant);
+  return *technique;
+}
+
+const Target& GpuRenderer::target_for(ImageSize size, std::span<const Channel> outputs) {
+  if (!target_.fits(size, outputs, 1)) target_ = Target(size, outputs);
+  return target_;
+}
+
+double GpuRenderer::timed(const std::function<void()>& draw) {
+  tools_->timer.finish();
+  draw();
+  double sum = 0.0;
+  for (const auto& [stage, ms] : tools_->timer.finish()) sum += ms;
+  return sum;
+}
+
+Image GpuRenderer::draw_color(Technique& technique, View view, const Passes& passes, bool show_pieces) {
+  static constexpr Channel outputs[] = {Channel::color};
+  view.outputs = outputs;
+  view.samples = passes.samples;
+  const Target& picture = target_for(view.size(), outputs);
+  if (passes.shifts.size() == 1) {
+    technique.draw(view, picture);
+    if (show_pieces) draw_piece_borders(technique, view, picture);
+    tools_->timer.mark("read back");
+    return read_back(picture.image(Channel::color), Channel::color, view.size());
+  }
+  // Half floats hold a pass, but not the sum of a thousand.
+  const gl::Texture total = gl::Texture::image(GL_RGBA32F, view.size());
+  const gl::Framebuffer framebuffer = gl::create_framebuffer();
+  glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, total.id(), 0);
+  const GLfloat zero[4] = {0, 0, 0, 0};
+  glClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 0, zero);
+  const gl::Program& add = tools_->programs.get(
+      {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "common/accumulate.frag"}}, {});
+  for (const glm::dvec2& shift : passes.shifts) {
+    view.shift = shift;
+    technique.draw(view, picture);
+    if (show_pieces) draw_piece_borders(technique, view, picture);
+    tools_->timer.mark("accumulate");
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    glBindSampler(0, 0);
+    picture.image(Channel::color).bind(0);
+    add.set("weight", 1.0f / float(passes.shifts.size()));
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    tools_->draw_fullscreen(add);
+    glDisable(GL_BLEND);
+  }
+  tools_->timer.mark("read back");
+  return read_back(total, Channel::color, view.size());
+}
+
+void GpuRenderer::draw_piece_borders(const Technique& technique, const View& view, const Target& picture) {
+  const Camera* pieces = view.camera.pieces() != nullptr ? &view.camera : technique.pieces();
+  if (pieces == nullptr) {
+    throw CommandError("there are no pieces to show: technique piecewise draws them, or a camera in the pieces form");
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
+  glViewport(0, 0, view.size().width, view.size().height);
+  tools_->draw_piece_borders(view, *pieces);
+}
+
+void GpuRenderer::draw_channels(Technique& technique, View view, std::map<Channel, Image>& pictures) {
+  std::vector<Channel> outputs;
+  for (const auto& [channel, image] : pictures) {
+    if (channel != Channel::color) outputs.push_back(channel);
+  }
+  if (outputs.empty()) return;
+  view.outputs = outputs;
+  const Target& picture = target_for(view.size(), outputs);
+  technique.draw(view, picture);
+  tools_->timer.mark("read back");
+  for (Channel channel : outputs) {
+    paste(read_back(picture.image(channel), channel, view.size()), view.tile, pictures.at(channel));
+  }
+}
+
+std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dmat4& worldFromCamera,
+                                             std::span<const Channel> wanted, const RenderOptions& options,
+                                             const ChosenTechnique& chosen, RenderStats& stats) {
+  const std::vector<Effect> effects = effects_of(options);
+  context_.make_current();
+  const gl::Limits& limits = context_.limits();
+  Technique& technique = technique_for(chosen);
+  const double shadow_ms = timed([&] { shadow_maps_->use(options.shadows, options.shadow_size); });
+  const double reflection_ms = timed([&] { reflection_maps_->use(options); });
+  gpu_scene_->set_view(worldFromCamera, options.background);
+
+  const int most = std::min(limits.texture_size, limits.viewport_size);
+  const int side = options.tile > 0 ? std::min(options.tile, most) : std::min(most, preferred_tile);
+  const std::vector<PixelRect> tiles = tiles_of(camera.size(), side);
+  const Passes passes(options.samples, technique.multisamples(), limits.samples);
+
+  std::map<Channel, Image> pictures;
+  for (Channel channel : wanted) pictures.emplace(channel, make_image(channel, camera.size()));
+  tools_->counters.finish();
+  BoundFragments bound_fragments;
+  for (const PixelRect& tile : tiles) {
+    View view{.camera = camera, .worldFromCamera = worldFromCamera, .tile = tile};
+    view.filter = options.filter;
+    view.face_size = options.face_size;
+    view.pieces = options.pieces;
+    view.show_overdraw = options.show.contains(Show::overdraw);
+    view.bound_fragments = options.count_fragments && chosen.entry->info.bounds ? &bound_fragments : nullptr;
+    if (pictures.contains(Channel::color)) {
+      View shaded = view;
+      shaded.effects = effects;
+      paste(draw_color(technique, shaded, passes, options.show.contains(Show::pieces)), tile,
+            pictures.at(Channel::color));
+    }
+    draw_channels(technique, view, pictures);
+  }
+  const gl::Counts counts = tools_->counters.finish();
+  auto stages = tools_->timer.finish();
+  stats.renderer = context_.renderer();
+  stats.triangles_drawn = size_t(counts.primitives);
+  stats.fragments_shaded = counts.fragments;
+  stats.samples_kept = counts.samples;
+  stats.buffer_bytes = gpu_scene_->bytes() + target_.bytes() + tools_->multisample_target.bytes() +
+                       technique.buffer_bytes() + shadow_maps_->bytes() + reflection_maps_->bytes();
+  stats.tiles = int(tiles.size());
+  stats.passes = pictures.contains(Channel::color) ? int(passes.shifts.size()) : 0;
+  stats.stage_ms = std::move(stages);
+  if (options.reflect) stats.stage_ms.insert(stats.stage_ms.begin(), {"reflection maps", reflection_ms});
+  if (options.shadows != Shadows::off) stats.stage_ms.insert(stats.stage_ms.begin(), {"shadow maps", shadow_ms});
+  if (options.count_fragments && chosen.entry->info.bounds) stats.bound_fragments = bound_fragments;
+  technique.report(stats);
+  return pictures;
+}
+
+}  // namespace omma
