@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "omma/technique/nonlinear/image_tiles.h"
+#include "omma/technique/nonlinear/image_squares.h"
 #include "omma/technique/nonlinear/lens_curvature.h"
 #include "tests/unit/camera_samples.h"
 
@@ -19,8 +19,6 @@ size_t cases_per_camera(size_t few) {
   const char* full = std::getenv("OMMA_FULL_PROOF");
   return full != nullptr && std::string(full) == "1" ? 10000000 / (6 * lens_models().size()) : few;
 }
-
-double angle_between(const glm::dvec3& a, const glm::dvec3& b) { return std::acos(std::min(1.0, glm::dot(a, b))); }
 
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
   const glm::dvec2 along = b - a;
@@ -108,10 +106,10 @@ TEST_P(NonlinearLensTest, CurvedTrianglesStayWithinTheirBounds) {
   EXPECT_GT(cases, 2000u);
 }
 
-TEST_P(NonlinearLensTest, ConesEncloseTheRaysOfTheirSquares) {
+TEST_P(NonlinearLensTest, SquaresKnowTheRaysOfTheirPixels) {
   std::mt19937_64 random(GetParam());
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  size_t rays = 0, uncovered = 0, outside = 0;
+  size_t rays = 0, uncovered = 0, outside = 0, not_linear = 0, not_whole = 0, linear = 0;
   for (const auto& [text, camera] : sample_cameras(model())) {
     const ImageSize size = camera.size();
     const PixelRect tile{16, 8, size.width, size.height - 3};
@@ -128,9 +126,17 @@ TEST_P(NonlinearLensTest, ConesEncloseTheRaysOfTheirSquares) {
           const glm::dvec2 shift = shifted ? glm::dvec2(unit(random), unit(random)) - 0.5 : glm::dvec2(0.0);
           const glm::dvec2 sample = glm::dvec2(0.05) + 0.9 * glm::dvec2(unit(random), unit(random));
           const auto ray = camera.unproject(pixel + sample + shift);
+          not_whole += square.whole && !camera.unproject(pixel + 0.5);
           if (!ray || !camera.unproject(pixel + 0.5 + shift)) continue;
           ++rays;
-          outside += angle_between(square.axis, ray->direction) > square.angle + 1e-7;
+          outside += angle_between(square.cone.axis, ray->direction) > square.cone.angle + 1e-7;
+          if (!square.linear) continue;
+          const glm::dvec2 corner = glm::dvec2(square.x + tile.x0, square.y + tile.y0);
+          const glm::dvec2 uv = 2.0 * (pixel + sample + shift - corner) / double(square.side) - 1.0;
+          const glm::dvec3 near = square.linear->middle + uv.x * square.linear->across + uv.y * square.linear->down;
+          const double along = glm::dot(near, ray->direction);
+          not_linear += along <= 0.0 || glm::distance(near, along * ray->direction) > square.linear->off;
+          ++linear;
         }
         if (square.descendants > 0) continue;
         for (int y = square.y; y < std::min(square.y + square.side, tile.height()); ++y) {
@@ -149,7 +155,10 @@ TEST_P(NonlinearLensTest, ConesEncloseTheRaysOfTheirSquares) {
     }
   }
   EXPECT_EQ(outside, 0u) << "of " << rays;
+  EXPECT_EQ(not_linear, 0u) << "of " << linear;
+  EXPECT_EQ(not_whole, 0u);
   EXPECT_EQ(uncovered, 0u);
+  EXPECT_GT(linear, rays / 10);
   EXPECT_GT(rays, 10000u);
 }
 

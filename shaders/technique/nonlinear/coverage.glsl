@@ -1,5 +1,6 @@
-// Where in the image a triangle is drawn: as it is where the lens leaves it straight, in a polygon around it where the lens allows, else in the squares that it
-// reaches: leaves of the tree, and whole nodes that lie within it.
+// Where in the image a triangle is drawn: as it is where the lens leaves it straight, in a polygon around it where the
+// lens allows, else in the squares that it reaches: leaves of the tree, and whole nodes that lie within it.
+#include "technique/nonlinear/image_tile.glsl"
 #ifdef PROJECTS
 #include "common/camera.glsl"
 #include "technique/nonlinear/outline.glsl"
@@ -26,10 +27,24 @@ uint form_of(Pyramid pyramid) {
   return FORM_SQUARES;
 }
 
+// True when all of the node's square sees the triangle.
 bool lies_within(Node node, Pyramid pyramid) {
+  if (!is_whole(node.data)) return false;
   float within = node.sine + LEEWAY;
   return dot(pyramid.side[0], node.axis) > within && dot(pyramid.side[1], node.axis) > within &&
          dot(pyramid.side[2], node.axis) > within;
+}
+
+// False when a leaf's square is beyond one of the triangle's edges.
+bool may_reach_square(int node, Node leaf, Pyramid pyramid) {
+  LinearRays rays = linear_rays(node);
+  if (rays.off < 0.0) return true;
+  float side = float(square_of(leaf.data).z), reach = 0.5 * side + SQUARE_MARGIN + 0.5;
+  for (int i = 0; i < 3; ++i) {
+    vec3 plane = pyramid.side[i];
+    if (dot(plane, rays.middle) + side_leeway(rays, plane, side, reach) < 0.0) return false;
+  }
+  return true;
 }
 
 // The next node to draw, or OUTLINE, from `node` on and before `end`; NO_PIECE when there is none.
@@ -52,7 +67,7 @@ uint next_piece(Pyramid pyramid, inout int node, int end) {
     }
     uint found = uint(node);
     node = next.skip;
-    return found;
+    if (next.piece == NO_PIECE || may_reach_square(int(found), next, pyramid)) return found;
   }
   return NO_PIECE;
 }

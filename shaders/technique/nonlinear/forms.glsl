@@ -10,5 +10,9 @@ const float STRAIGHT_ANGLE = 0.009;        // radians; 1 / distance is then off 
 // By this much, px, exact triangles reach over edges that a straight triangle may share, whose corners are rounded.
 const float EDGE_OVERLAP = 1.0 / 128.0;
 
+// Polygons around triangles reach this much farther than they need to, px: far more than single precision and
+// rasterizers move a corner.
+const float SQUARE_MARGIN = 0.0625;
+
 // In the place of a node's number: the triangle's own outline.
 const uint OUTLINE = 0x40000000u;

@@ -7,7 +7,7 @@ const int CELLS_A_SIDE = 24;
 const int LEVELS = 5;
 const float FIRST_REACH = 1.0 / 48.0;  // radians; of each next level twice as far
 
-const float FARTHEST_BULGE = 4.0;  // px; what bulges more is drawn in squares of the image
+const float FARTHEST_BULGE = 0.5;  // px; what bulges more is drawn in squares of the image
 
 uniform float formula_max_angle;  // radians: triangles at the edge of the field of view have corners beyond it
 

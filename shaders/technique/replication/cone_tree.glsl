@@ -6,6 +6,7 @@ struct Node {
   float sine, cosine;  // of the half angle; the sine is 2 where that is a right angle or more
   int skip;            // the node after this one's descendants
   uint piece;          // or NO_PIECE
+  uint data;           // what the tree has to say of it
 };
 
 const uint NO_PIECE = 0xffffffffu;
@@ -18,7 +19,7 @@ uniform int node_count;
 Node node_of(int number) {
   vec4 cone = uintBitsToFloat(texelFetch(node_texels, 2 * number));
   uvec4 link = texelFetch(node_texels, 2 * number + 1);
-  return Node(cone.xyz, cone.w, uintBitsToFloat(link.z), int(link.x), link.y);
+  return Node(cone.xyz, cone.w, uintBitsToFloat(link.z), int(link.x), link.y, link.w);
 }
 
 // A triangle as a pyramid from the camera's centre, and the cone around it.

@@ -7,6 +7,19 @@
 namespace omma {
 namespace {
 
+/// Polygons are cut by three planes, for as long as it lives.
+class ClipPlanes {
+ public:
+  ClipPlanes() {
+    for (int i = 0; i < 3; ++i) glEnable(GLenum(GL_CLIP_DISTANCE0 + i));
+  }
+  ~ClipPlanes() {
+    for (int i = 0; i < 3; ++i) glDisable(GLenum(GL_CLIP_DISTANCE0 + i));
+  }
+  ClipPlanes(const ClipPlanes&) = delete;
+  ClipPlanes& operator=(const ClipPlanes&) = delete;
+};
+
 class HybridDrawer : public BoundDrawer {
  public:
   explicit HybridDrawer(DrawTools& tools)
@@ -60,11 +73,15 @@ class HybridDrawer : public BoundDrawer {
       }
     };
     MeshPass pass = exact_pass(view, exact);
-    if (view.camera.lens() == nullptr) return draw(Forms::all_exact, solid_, pass);
+    if (view.camera.lens() == nullptr) {
+      const ClipPlanes clip;
+      return draw(Forms::all_exact, solid_, pass);
+    }
     pass.defines["SOME_ARE_STRAIGHT"] = "1";
     MeshPass straight = outlined(exact.straight_pass(view, {{GL_VERTEX_SHADER, "technique/nonlinear/straight.vert"}}));
     straight.defines["PULLED"] = "1";
     draw(Forms::straight, straight_, straight);
+    const ClipPlanes clip;
     draw(Forms::all_but_straight, solid_, pass);
   }
 
@@ -78,6 +95,7 @@ class HybridDrawer : public BoundDrawer {
 
     tools_.timer.mark("draw");
     const SurfaceState state(tools_, true);
+    const ClipPlanes clip;
     blended_.bind();
     const MeshPass pass = exact_pass(view, exact);
     for (size_t i = 0; i < blended.ranges.size(); ++i) {
