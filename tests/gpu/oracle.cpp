@@ -170,13 +170,15 @@ Match match(const Oracle& oracle, const Camera& camera, const glm::dvec2& pixel,
 
 }  // namespace
 
-Verdict judge(const Oracle& oracle, const Camera& camera, const IntImage& ids, const Forgiven& forgiven) {
+Verdict judge(const Oracle& oracle, const Camera& camera, const IntImage& ids, const Forgiven& forgiven,
+              const IntImage* agreed) {
   Verdict verdict;
   for (int y = 0; y < ids.size.height; ++y) {
     for (int x = 0; x < ids.size.width; ++x) {
       const glm::dvec2 pixel(x + 0.5, y + 0.5);
       const int32_t id = *ids.at(x, y);
-      const Match found = match(oracle, camera, pixel, id, forgiven);
+      const bool is_agreed = agreed != nullptr && *agreed->at(x, y) == id;
+      const Match found = is_agreed ? Match::exact : match(oracle, camera, pixel, id, forgiven);
       ++verdict.pixels;
       verdict.hits += id >= 0;
       verdict.edges += found == Match::edge;

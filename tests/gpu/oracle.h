@@ -70,6 +70,8 @@ struct Forgiven {
   bool cracks = false;  ///< what is behind an edge, too: rounded vertices open cracks where edges meet at a T
 };
 
-Verdict judge(const Oracle& oracle, const Camera& camera, const IntImage& ids, const Forgiven& forgiven);
+/// Where `agreed`, somebody else's picture, has the same id, that is taken to be right: the oracle is slow.
+Verdict judge(const Oracle& oracle, const Camera& camera, const IntImage& ids, const Forgiven& forgiven,
+              const IntImage* agreed = nullptr);
 
 }  // namespace omma

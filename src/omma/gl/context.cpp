@@ -123,6 +123,11 @@ Limits read_limits() {
                              get_integer(GL_MAX_DEPTH_TEXTURE_SAMPLES)});
   limits.array_layers = get_integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
   limits.buffer_texels = get_integer(GL_MAX_TEXTURE_BUFFER_SIZE);
+  GLint64 storage_bytes = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage_bytes);
+  limits.storage_bytes = size_t(storage_bytes);
+  limits.atomics_64 =
+      epoxy_has_gl_extension("GL_NV_shader_atomic_int64") && epoxy_has_gl_extension("GL_ARB_gpu_shader_int64");
   limits.anisotropy = 1.0f;
   if (epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic") ||
       epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {

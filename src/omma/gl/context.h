@@ -26,8 +26,10 @@ struct Limits {
   int viewport_size = 0;
   int samples = 0;  ///< of every colour, depth and integer format alike
   int array_layers = 0;
-  int buffer_texels = 0;    ///< in a buffer texture
-  float anisotropy = 0.0f;  ///< 1 where the driver has no anisotropic filtering
+  int buffer_texels = 0;     ///< in a buffer texture
+  size_t storage_bytes = 0;  ///< in a shader storage block
+  bool atomics_64 = false;   ///< shaders can update 64 bits of a storage block at once
+  float anisotropy = 0.0f;   ///< 1 where the driver has no anisotropic filtering
 };
 
 /// One context, current on the thread that made it. The environment variable OMMA_GL_DEBUG makes the driver's debug

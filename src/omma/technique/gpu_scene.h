@@ -78,6 +78,8 @@ class GpuScene {
   const gl::Buffer& indices() const { return indices_; }
   /// Of a mesh, in the common vertex buffers.
   uint32_t first_vertex(size_t mesh) const { return first_vertex_[mesh]; }
+  /// Of a mesh, in the common index buffer, in triangles.
+  uint32_t first_triangle(size_t mesh) const { return first_index_[mesh] / 3; }
   const glm::dmat4& worldFromCamera() const { return worldFromCamera_; }
   bool has_blending() const { return has_blending_; }
   size_t bytes() const;

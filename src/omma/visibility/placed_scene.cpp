@@ -98,6 +98,7 @@ Box PlacedScene::place(const Placement& placement, const glm::dmat4& cameraFromW
   placed.origin = glm::vec3(scale * glm::dvec3(cameraFromObject[3]));
   placed.scale = float(scale);
   placed.pad = float(2e-6 * reach * scale);
+  placed.body = &body;
   placed.nodes = body.tree.nodes.data();
   placed.clusters = body.clusters.data();
   placed.parts = parts;

@@ -28,7 +28,8 @@ struct PlacedBody {
   glm::vec3 columns[3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< cameraFromObject, scaled
   glm::vec3 origin{0.0f};
   float scale = 1.0f;
-  float pad = 0.0f;  ///< what rounding may move a point by
+  float pad = 0.0f;            ///< what rounding may move a point by
+  const Body* body = nullptr;  ///< null in the frame of the tree over bodies
   const BoxNode* nodes = nullptr;
   const Cluster* clusters = nullptr;  ///< null in the frame of the tree over bodies
   const PlacedPart* parts = nullptr;
@@ -47,9 +48,10 @@ class PlacedScene {
   const Scene& scene() const { return *scene_; }
   /// Over the bodies, in the camera frame, metres. Empty when nothing is there.
   const BoxTree& top() const { return top_; }
-  const PlacedBody& top_frame() const { return top_frame_; }       ///< in which the finder meets `top`
-  std::span<const PlacedBody> bodies() const { return placed_; }   ///< by the leaves of `top`
-  uint32_t depth() const { return top_.depth + bodies_.depth(); }  ///< of nodes, from the root down to the last
+  const PlacedBody& top_frame() const { return top_frame_; }            ///< in which the finder meets `top`
+  std::span<const PlacedBody> bodies() const { return placed_; }        ///< by the leaves of `top`
+  const std::vector<Body>& shapes() const { return bodies_.bodies(); }  ///< that are placed, once each
+  uint32_t depth() const { return top_.depth + bodies_.depth(); }       ///< of nodes, from the root down to the last
   bool has_blending() const { return has_blending_; }
   size_t bytes() const;
 

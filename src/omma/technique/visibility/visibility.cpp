@@ -65,8 +65,10 @@ const TechniqueEntry visibility_technique{
      .needs_project = false,
      .variants = {{.name = "cpu",
                    .description = "on the processor, with SIMD and all cores; OpenGL for colour alone",
-                   .without_gl = true}}},
-    [](DrawTools& tools, const std::string&) -> std::unique_ptr<Technique> {
+                   .without_gl = true},
+                  {.name = "gpu", .description = "compute shaders find the triangles"}}},
+    [](DrawTools& tools, const std::string& variant) -> std::unique_ptr<Technique> {
+      if (variant == "gpu") return make_gpu_visibility(tools);
       return std::make_unique<Visibility>(tools);
     }};
 

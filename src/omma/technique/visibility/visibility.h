@@ -8,4 +8,7 @@ namespace omma {
 
 extern const TechniqueEntry visibility_technique;
 
+/// The variant `gpu`.
+std::unique_ptr<Technique> make_gpu_visibility(DrawTools& tools);
+
 }  // namespace omma

@@ -1,0 +1,20 @@
+// The triangles of a cluster against the leaves of a block.
+#include "technique/visibility/turned_triangle.glsl"
+#include "technique/visibility/list.glsl"
+
+layout(local_size_x = 64) in;
+
+uniform uint node_first;  // of the blocks' level
+
+void main() {
+  uint number = invocation() >> 4, k = invocation() & 15u;
+  if (number >= task_count()) return;
+  uvec2 task = task_at(number);
+  uint slot = task.x << 4 | k;
+  TurnedTriangle t;
+  if (!turned_triangle(slot, t) || !may_see(t, node_of(task.y))) return;
+  uint first = 16u * (task.y - node_first);
+  for (uint leaf = first; leaf < first + 16u; ++leaf) {
+    if (may_see(t, node_of(leaf))) append(uvec2(slot, leaf));
+  }
+}
