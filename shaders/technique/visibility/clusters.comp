@@ -22,5 +22,6 @@ void main() {
   uvec2 placed = texelFetch(placed_group_texels, int(cluster >> 4)).xy;
   Box group = group_of(placed.y);
   if ((cluster & 15u) >= group.count) return;
-  if (may_see(cluster_of(group.first + (cluster & 15u)), placement_of(placed.x), node_of(node))) append(uvec2(cluster, node));
+  bool seen = may_see(cluster_of(group.first + (cluster & 15u)), placement_of(placed.x), node_of(node));
+  append_if(seen, uvec2(cluster, node));
 }

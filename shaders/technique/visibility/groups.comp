@@ -28,5 +28,5 @@ void main() {
   Placement placement = placement_of(placed.x);
   if (solid != LABELS && placement.blended != (solid == BLENDED)) return;
   Box box = group_of(placed.y);
-  if (is_in_batch(distance_step(box, placement)) && may_see(box, placement, node_of(node))) append(uvec2(group, node));
+  append_if(is_in_batch(distance_step(box, placement)) && may_see(box, placement, node_of(node)), uvec2(group, node));
 }

@@ -5,9 +5,12 @@ layout(std430, binding = 1) writeonly buffer ListBlock { uvec2 list[]; };
 uniform uint list_counter;   // of the list that is written
 uniform uint list_capacity;
 
-void append(uvec2 entry) {
-  uint at = atomicAdd(counts[list_counter], 1u);
-  if (at < list_capacity) list[at] = entry;
+void append_if(bool wanted, uvec2 entry) {
+  // Not an `if`: software rasterizers go through its body even where nobody wants it.
+  for (; wanted; wanted = false) {
+    uint at = atomicAdd(counts[list_counter], 1u);
+    if (at < list_capacity) list[at] = entry;
+  }
 }
 
 layout(binding = 18) uniform usamplerBuffer task_texels;   // the list that is read

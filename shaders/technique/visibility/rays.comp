@@ -9,7 +9,7 @@
 #extension GL_NV_shader_atomic_int64 : require
 #endif
 #include "technique/visibility/turned_triangle.glsl"
-#include "technique/visibility/coverage.glsl"
+#include "${HOLES}"
 #include "technique/visibility/list.glsl"
 
 layout(local_size_x = 64) in;
@@ -17,29 +17,34 @@ layout(local_size_x = 64) in;
 layout(binding = 10) uniform samplerBuffer ray_texels;  // of each leaf sixteen; zero for none
 layout(binding = 11) uniform usamplerBuffer seen_texels;
 
+// Inverse distances as bits sort as numbers do.
 #if defined(COLLECT)
 layout(std430, binding = 2) writeonly buffer LayerBlock { uvec4 layers[]; };  // ray, triangle, inverse distance
-uint seen_at(uint ray) {
+#elif defined(ATOMIC_64)
+layout(std430, binding = 2) buffer SeenBlock { uint64_t seen[]; };
+#else
+layout(std430, binding = 2) buffer SeenBlock { uint seen[]; };
+layout(std430, binding = 3) buffer IdBlock { uint ids[]; };
+uniform bool keeps_ids;
+#endif
+
+// What the ray saw when this program began, or a little later: enough to pass most of what is farther.
+uint inverse_seen(uint ray) {
 #ifdef ATOMIC_64
   return texelFetch(seen_texels, int(ray)).y;
 #else
   return texelFetch(seen_texels, int(ray)).x;
 #endif
 }
-#elif defined(ATOMIC_64)
-layout(std430, binding = 2) buffer SeenBlock { uint64_t seen[]; };
-#else
-layout(std430, binding = 2) buffer SeenBlock { uint seen[]; };  // inverse distances, as bits: they sort as numbers do
-layout(std430, binding = 3) buffer IdBlock { uint ids[]; };
-uniform bool keeps_ids;
-#endif
-
-const float LABEL_ALPHA_CUTOFF = 0.5;
 
 bool is_hole(TurnedTriangle t, vec3 inside) {
+#ifdef HOLES
   if (t.part.alpha == ALPHA_OPAQUE) return false;
   float cutoff = t.part.alpha == ALPHA_BLEND ? LABEL_ALPHA_CUTOFF : t.part.cutoff;
   return !(coverage(t, inside / (inside.x + inside.y + inside.z)) >= cutoff);
+#else
+  return false;
+#endif
 }
 
 #ifdef COLLECT
@@ -54,21 +59,27 @@ bool owns(TurnedTriangle t, vec3 inside, float turn) {
   return true;
 }
 
+bool is_wanted(uint inverse, uint seen) { return inverse > seen; }
+
 void keep(TurnedTriangle t, uint ray, vec3 inside, float turn, uint inverse) {
-  if (inverse <= seen_at(ray) || !owns(t, inside, turn)) return;
+  if (!owns(t, inside, turn)) return;
   uint at = atomicAdd(counts[list_counter], 1u);
   if (at < list_capacity) layers[at] = uvec4(ray, t.id, inverse, 0u);
 }
 #elif defined(ATOMIC_64)
-void keep(TurnedTriangle t, uint ray, vec3 inside, uint inverse) {
-  uint64_t key = packUint2x32(uvec2(~t.id, inverse));
-  if (key > seen[ray] && !is_hole(t, inside)) atomicMax(seen[ray], key);
+bool is_wanted(uint inverse, uint seen) { return inverse >= seen; }
+
+void keep(TurnedTriangle t, uint ray, vec3 inside, float turn, uint inverse) {
+  if (!is_hole(t, inside)) atomicMax(seen[ray], packUint2x32(uvec2(~t.id, inverse)));
 }
 #else
-void keep(TurnedTriangle t, uint ray, vec3 inside, uint inverse) {
+bool is_wanted(uint inverse, uint seen) { return keeps_ids ? inverse == seen : inverse > seen; }
+
+void keep(TurnedTriangle t, uint ray, vec3 inside, float turn, uint inverse) {
+  if (is_hole(t, inside)) return;
   if (keeps_ids) {
-    if (inverse == texelFetch(seen_texels, int(ray)).x && !is_hole(t, inside)) atomicMin(ids[ray], t.id);
-  } else if (inverse > seen[ray] && !is_hole(t, inside)) {
+    atomicMin(ids[ray], t.id);
+  } else {
     atomicMax(seen[ray], inverse);
   }
 }
@@ -85,11 +96,8 @@ void main() {
     vec3 inside;
     float turn;
     float inverse = meet(t, direction, inside, turn);
-    if (!(inverse > 0.0)) continue;
-#ifdef COLLECT
-    keep(t, ray, inside, turn, floatBitsToUint(inverse));
-#else
-    keep(t, ray, inside, floatBitsToUint(inverse));
-#endif
+    bool wanted = inverse > 0.0 && is_wanted(floatBitsToUint(inverse), inverse_seen(ray));
+    // As in append_if.
+    for (; wanted; wanted = false) keep(t, ray, inside, turn, floatBitsToUint(inverse));
   }
 }

@@ -12,9 +12,8 @@ void main() {
   uvec2 task = task_at(number);
   uint slot = task.x << 4 | k;
   TurnedTriangle t;
-  if (!turned_triangle(slot, t) || !may_see(t, node_of(task.y))) return;
-  uint first = 16u * (task.y - node_first);
-  for (uint leaf = first; leaf < first + 16u; ++leaf) {
-    if (may_see(t, node_of(leaf))) append(uvec2(slot, leaf));
-  }
+  bool seen = turned_triangle(slot, t);
+  seen = seen && may_see(t, node_of(task.y));
+  uint leaf = 16u * (task.y - node_first), end = seen ? leaf + 16u : leaf;
+  for (; leaf < end; ++leaf) append_if(may_see(t, node_of(leaf)), uvec2(slot, leaf));
 }

@@ -59,6 +59,7 @@ void GpuBodies::upload_alphas() {
   const Scene& scene = scene_.scene();
   std::vector<bool> used(scene.textures.size(), false);
   for (const Material& material : scene.materials) {
+    has_holes_ |= material.alpha != Material::Alpha::opaque;
     if (material.alpha != Material::Alpha::opaque && material.base_color_texture >= 0) {
       used[size_t(material.base_color_texture)] = true;
     }

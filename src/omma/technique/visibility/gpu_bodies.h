@@ -25,6 +25,8 @@ class GpuBodies {
 
   /// Groups, each as often as its body is placed.
   uint32_t placed_group_count() const { return placed_group_count_; }
+  /// Some surfaces do not cover all of their triangles.
+  bool has_holes() const { return has_holes_; }
   size_t bytes() const {
     return placements_.bytes() + placed_groups_.bytes() + groups_.bytes() + clusters_.bytes() + triangles_.bytes() +
            parts_.bytes() + alphas_.bytes();
@@ -47,6 +49,7 @@ class GpuBodies {
   std::vector<uint32_t> first_group_;  ///< of each of the scene's shapes, and the number of all
   std::vector<uint32_t> first_alpha_;  ///< of each texture
   uint32_t placed_group_count_ = 0;
+  bool has_holes_ = false;
   gl::Texels placements_{GL_RGBA32UI}, placed_groups_{GL_RG32UI}, groups_{GL_RGBA32UI}, clusters_{GL_RGBA32UI};
   gl::Texels triangles_{GL_R32UI}, parts_{GL_RGBA32UI}, alphas_{GL_R8};
 };

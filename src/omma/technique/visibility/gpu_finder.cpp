@@ -178,7 +178,11 @@ void GpuFinder::pass(const GpuRays& rays, Look look, Solid solid, int batch, con
   ++from;
 
   gl::Defines with = defines();
-  if (look == Look::blended) with["COLLECT"] = "";
+  if (look == Look::blended) {
+    with["COLLECT"] = "";
+  } else if (bodies_.has_holes()) {
+    with["HOLES"] = "technique/visibility/coverage.glsl";
+  }
   const gl::Program& meet = program_of(tools_, "rays.comp", with);
   seen_.bind(11);
   if (look == Look::blended) {
