@@ -19,8 +19,10 @@ constexpr Benchmark list[] = {
      run_image_based},
     {"piecewise", "perspective pieces against the cube map and a planar picture; growth with pieces and triangles",
      run_piecewise},
-    {"visibility", "the tree of rays that finds the visible triangles against Embree; growth with triangles",
-     run_visibility},
+    {"visibility",
+     "the tree of rays that finds the visible triangles against Embree; growth with triangles; whole frames against "
+     "every other technique",
+     run_visibility, true},
     {"nonlinear", "bounding shapes and hybrid against cubes, hemicubes and a planar picture; where the time goes",
      run_nonlinear},
     {"effects", "how evenly lines and strokes come out over the image, by technique", run_effects},
@@ -34,17 +36,23 @@ double percentile(const std::vector<double>& sorted, double share) {
 
 std::span<const Benchmark> benchmarks() { return list; }
 
-std::vector<Timing> measure_in_turn(std::span<const std::function<double()>> configurations, int runs) {
+Timing timing_of(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  return {percentile(times, 0.5), percentile(times, 0.1), percentile(times, 0.9)};
+}
+
+std::vector<std::vector<double>> times_in_turn(std::span<const std::function<double()>> configurations, int runs) {
   std::vector<std::vector<double>> times(configurations.size());
   for (const auto& configuration : configurations) configuration();
   for (int run = 0; run < runs; ++run) {
     for (size_t i = 0; i < configurations.size(); ++i) times[i].push_back(configurations[i]());
   }
+  return times;
+}
+
+std::vector<Timing> measure_in_turn(std::span<const std::function<double()>> configurations, int runs) {
   std::vector<Timing> timings;
-  for (std::vector<double>& samples : times) {
-    std::sort(samples.begin(), samples.end());
-    timings.push_back({percentile(samples, 0.5), percentile(samples, 0.1), percentile(samples, 0.9)});
-  }
+  for (std::vector<double>& times : times_in_turn(configurations, runs)) timings.push_back(timing_of(std::move(times)));
   return timings;
 }
 

@@ -11,7 +11,8 @@
 namespace omma::bench {
 
 struct Options {
-  int runs = 9;  ///< of each configuration, after one that warms up
+  int runs = 9;       ///< of each configuration, after one that warms up
+  std::string scene;  ///< one more to measure in, of benchmarks that take one; empty: none
 };
 
 struct Benchmark {
@@ -19,6 +20,7 @@ struct Benchmark {
   const char* description;
   /// Prints its tables as Markdown and returns the same numbers.
   nlohmann::json (*run)(const Options& options);
+  bool takes_scene = false;
 };
 
 /// The only list of benchmarks.
@@ -28,6 +30,12 @@ std::span<const Benchmark> benchmarks();
 struct Timing {
   double median = 0.0, low = 0.0, high = 0.0;  ///< low and high: 10th and 90th percentile
 };
+
+/// Of one configuration's milliseconds.
+Timing timing_of(std::vector<double> times);
+
+/// Milliseconds of every configuration in every run: once to warm up, uncounted, then all of them in turn.
+std::vector<std::vector<double>> times_in_turn(std::span<const std::function<double()>> configurations, int runs);
 
 /// Runs every configuration once to warm up, then all of them in turn, `runs` times: what disturbs the machine for a
 /// while disturbs them alike. A configuration returns its milliseconds.

@@ -9,6 +9,7 @@
 
 #include "bench/flat_embree.h"
 #include "bench/frame.h"
+#include "bench/visibility_frames.h"
 #include "omma/camera/ray_bundle.h"
 #include "omma/math/pose.h"
 #include "omma/visibility/find_blocks.h"
@@ -121,6 +122,7 @@ void print_header() {
 }  // namespace
 
 nlohmann::json run_visibility(const Options& options) {
+  if (!options.scene.empty()) load_scene(options.scene);  // fails before anything slow
   fmt::print("{}, {} threads. Both find each ray's triangle and instance; Embree's tree is built.\n",
              simd_targets().front(), std::thread::hardware_concurrency());
   print_header();
@@ -143,7 +145,7 @@ nlohmann::json run_visibility(const Options& options) {
     Subject subject(name);
     rows.push_back(measure(subject, {{name, name}, "equidistant:fov_deg=180"}, options));
   }
-  return rows;
+  return {{"finding", rows}, {"frames", run_visibility_frames(options)}};
 }
 
 }  // namespace omma::bench

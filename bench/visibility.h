@@ -1,4 +1,4 @@
-// Finding the visible triangles: the cone tree against Embree on the same triangles and rays.
+// Finding the visible triangles: the cone tree against Embree on the same triangles and rays; and whole frames.
 #pragma once
 
 #include "bench/bench.h"

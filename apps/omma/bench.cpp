@@ -18,7 +18,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> names;
-  Text runs, json;
+  Text runs, json, scene;
 };
 
 void run(const Options& options) {
@@ -31,6 +31,16 @@ void run(const Options& options) {
   }
   bench::Options bench_options;
   if (options.runs) bench_options.runs = count_of("--runs", *options.runs, 1, 1000);
+  if (options.scene) {
+    const auto takes = [&](const bench::Benchmark& benchmark) {
+      return benchmark.takes_scene && (options.names.empty() || std::find(options.names.begin(), options.names.end(),
+                                                                          benchmark.name) != options.names.end());
+    };
+    if (std::none_of(bench::benchmarks().begin(), bench::benchmarks().end(), takes)) {
+      throw CommandError("--scene is for the benchmark visibility, which is not among those asked for");
+    }
+    bench_options.scene = *options.scene;
+  }
   if (options.json) require_writable(*options.json);
 
   {
@@ -59,6 +69,7 @@ void add_bench(CLI::App& tool) {
   }
   command->add_option("NAME", options->names, "Which benchmarks; all without a name");
   command->add_option("--runs", options->runs, "How often each configuration is measured (default 9)");
+  command->add_option("--scene", options->scene, "visibility: one more scene, a built-in or a file, for whole frames");
   command->add_option("--json", options->json, "Writes the same numbers to this file");
   command->footer(
       "Benchmarks:\n" + names +
