@@ -10,6 +10,7 @@
 #include "bench/flat_embree.h"
 #include "bench/frame.h"
 #include "bench/visibility_frames.h"
+#include "bench/visibility_gpu.h"
 #include "omma/camera/ray_bundle.h"
 #include "omma/math/pose.h"
 #include "omma/visibility/find_blocks.h"
@@ -145,7 +146,8 @@ nlohmann::json run_visibility(const Options& options) {
     Subject subject(name);
     rows.push_back(measure(subject, {{name, name}, "equidistant:fov_deg=180"}, options));
   }
-  return {{"finding", rows}, {"frames", run_visibility_frames(options)}};
+  const nlohmann::json by_gpu = run_visibility_gpu(options);
+  return {{"finding", rows}, {"finding_by_gpu", by_gpu}, {"frames", run_visibility_frames(options)}};
 }
 
 }  // namespace omma::bench

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "omma/camera/ray_bundle.h"
+#include "omma/visibility/cone_levels.h"
 #include "omma/visibility/ray_tree.h"
 #include "tests/unit/camera_samples.h"
 
@@ -22,10 +23,13 @@ bool encloses(const Cone& cone, const glm::dvec3& direction) {
 /// Every ray of the map is in the tree once, within its cones. Returns how many there are.
 size_t check(const RayMap& rays) {
   const RayTree tree(rays);
+  const ConeLevels above(tree);
   EXPECT_EQ(tree.size(), rays.size);
+  EXPECT_LE(above.levels.back().count, ConeLevels::most_at_top);
   std::vector<int> met(rays.directions.size());
   size_t count = 0, outside = 0, wrong = 0;
-  for (const RayBlock& block : tree.blocks()) {
+  for (size_t b = 0; b < tree.blocks().size(); ++b) {
+    const RayBlock& block = tree.blocks()[b];
     EXPECT_NE(block.leaf_mask, 0u);
     for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
       for (int ray = 0; ray < 16; ++ray) {
@@ -40,6 +44,11 @@ size_t check(const RayMap& rays) {
         ++met[pixel];
         wrong += d != rays.directions[pixel];
         outside += !encloses(block.leaf_cone(leaf), d) || !encloses(block.cone, d);
+        size_t node = b * RayBlock::leaves + size_t(leaf);
+        for (const ConeLevels::Level& level : above.levels) {
+          outside += node >= level.count || !encloses(above.cones[level.first + node], d);
+          node /= 16;
+        }
         ++count;
       }
     }
