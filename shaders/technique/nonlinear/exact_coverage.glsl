@@ -45,11 +45,12 @@ bool is_inside(PixelRay ray) {
 // does: a surface extended beyond its edges may be anywhere.
 int samples_that_meet(vec2 pixel, inout PixelRay ray) {
   int all = (1 << SAMPLES) - 1;
-  if (is_inside(ray)) return all;
-  bool centre = meets(ray.direction, ray);
-  int samples = 0;
+  bool inside = is_inside(ray);
+  bool centre = inside || meets(ray.direction, ray);
+  int samples = inside ? all : 0;
   vec3 first = ray.direction;
-  for (int s = SAMPLES - 1; s >= 0; --s) {
+  // A loop that is not entered is the one way to leave work out where a driver runs both sides of every branch.
+  for (int s = inside ? -1 : SAMPLES - 1; s >= 0; --s) {
     vec3 direction;
     // A sample beyond the edge of what the camera sees goes with the pixel's centre.
     if (!camera_unproject(pixel - 0.5 + vec2(sample_places[s]) / 256.0, direction)) direction = ray.direction;
