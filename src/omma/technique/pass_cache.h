@@ -1,14 +1,18 @@
-// What is derived from a pass's rays and kept: rays take longer to compute than to follow, and a sequence asks for the
-// same ones again and again.
+// What is derived from a pass's rays and kept: a sequence asks for the same ones again and again.
 #pragma once
 
-#include <map>
-#include <optional>
-#include <utility>
-
+#include "omma/technique/recent_cache.h"
 #include "omma/technique/view.h"
 
 namespace omma {
+
+struct PassKey {
+  Camera camera;
+  PixelRect tile;
+  glm::dvec2 shift;
+
+  friend bool operator==(const PassKey&, const PassKey&) = default;
+};
 
 /// One T for each shift of a tile of a camera.
 template <typename T>
@@ -17,27 +21,17 @@ class PassCache {
   /// `make(camera, tile, shift)` returns a T.
   template <typename Make>
   const T& get(const View& view, const Make& make) {
-    if (camera_ != view.camera || tile_ != view.tile || by_shift_.size() >= kept) {
-      by_shift_.clear();
-      camera_ = view.camera;
-      tile_ = view.tile;
-    }
-    const std::pair shift(view.shift.x, view.shift.y);
-    const auto found = by_shift_.find(shift);
-    if (found != by_shift_.end()) return found->second;
-    return by_shift_.emplace(shift, make(view.camera, view.tile, view.shift)).first->second;
+    return cache_.get({view.camera, view.tile, view.shift},
+                      [&](const PassKey& key) { return make(key.camera, key.tile, key.shift); });
   }
 
   template <typename Each>
   void each(const Each& visit) const {
-    for (const auto& [shift, value] : by_shift_) visit(value);
+    cache_.each(visit);
   }
 
  private:
-  static constexpr size_t kept = 16;
-  std::optional<Camera> camera_;
-  PixelRect tile_;
-  std::map<std::pair<double, double>, T> by_shift_;
+  RecentCache<PassKey, T> cache_;
 };
 
 }  // namespace omma

@@ -18,19 +18,10 @@ uint32_t packed(const ImageSquare& square) {
 
 }  // namespace
 
-void ImageTiles::set(const View& view) {
-  view_ = &view;
-  const bool shifted = view.shift != glm::dvec2(0.0);
-  if (view.camera.lens() != nullptr && camera_ != view.camera) {
-    curvature_.write(std::span<const Curvature>(LensCurvature(*view.camera.lens()).cells()));
-  }
-  if (camera_ == view.camera && tile_ == view.tile && (shifted_ || !shifted)) return;
-  camera_ = view.camera;
-  tile_ = view.tile;
-  shifted_ = shifted;
+ImageTiles::Squares ImageTiles::upload(const Key& key) {
   std::vector<ConeNode> nodes;
   std::vector<glm::vec4> linear;
-  for (const ImageSquare& square : image_squares(view.camera, view.tile, shifted)) {
+  for (const ImageSquare& square : image_squares(key.camera, key.tile, key.shifted)) {
     const auto number = uint32_t(nodes.size());
     nodes.emplace_back(square.cone.axis, square.cone.angle, square.descendants == 0 ? number : ConeNode::no_piece,
                        packed(square));
@@ -38,19 +29,41 @@ void ImageTiles::set(const View& view) {
     const LinearRays rays = square.linear.value_or(not_linear);
     linear.insert(linear.end(), {glm::vec4(rays.middle, rays.off), glm::vec4(rays.across, 0), glm::vec4(rays.down, 0)});
   }
-  node_count_ = int(nodes.size());
-  nodes_.write(std::span<const ConeNode>(nodes));
-  linear_rays_.write(std::span<const glm::vec4>(linear));
+  Squares squares;
+  squares.count = int(nodes.size());
+  squares.nodes.write(std::span<const ConeNode>(nodes));
+  squares.linear_rays.write(std::span<const glm::vec4>(linear));
+  return squares;
+}
+
+gl::Texels ImageTiles::upload_curvature(const Lens& lens) {
+  gl::Texels texels(GL_RGB32F);
+  texels.write(std::span<const Curvature>(LensCurvature(lens).cells()));
+  return texels;
+}
+
+void ImageTiles::set(const View& view) {
+  view_ = &view;
+  squares_ = &cache_.get({view.camera, view.tile, view.shift != glm::dvec2(0.0)}, upload);
+  const Lens* lens = view.camera.lens();
+  curvature_ = lens != nullptr ? &curvatures_.get(*lens, upload_curvature) : nullptr;
+}
+
+size_t ImageTiles::bytes() const {
+  size_t sum = 0;
+  cache_.each([&](const Squares& squares) { sum += squares.nodes.bytes() + squares.linear_rays.bytes(); });
+  curvatures_.each([&](const gl::Texels& texels) { sum += texels.bytes(); });
+  return sum;
 }
 
 void ImageTiles::bind() const {
-  nodes_.bind(18);
-  linear_rays_.bind(23);
-  if (view_->camera.lens() != nullptr) curvature_.bind(22);
+  squares_->nodes.bind(18);
+  squares_->linear_rays.bind(23);
+  if (curvature_ != nullptr) curvature_->bind(22);
 }
 
 void ImageTiles::set_uniforms(const gl::Program& program) const {
-  program.set("node_count", node_count_);
+  program.set("node_count", squares_->count);
   program.set("square_shift", glm::vec2(view_->shift));
   set_camera(program, *view_);
   if (const Lens* lens = view_->camera.lens()) {

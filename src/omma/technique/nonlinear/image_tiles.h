@@ -1,9 +1,8 @@
 // The squares of an image as the GPU sees them. For a lens they know as well how straight the edges of triangles are.
 #pragma once
 
-#include <optional>
-
 #include "omma/technique/nonlinear/image_squares.h"
+#include "omma/technique/recent_cache.h"
 #include "omma/technique/replication/cone_tree.h"
 #include "omma/technique/view.h"
 
@@ -24,16 +23,28 @@ class ImageTiles : public ConeTree {
   gl::Defines outline_defines() const;
   /// Which triangles are looked for next; the others reach nothing.
   void look_for(Forms forms) { forms_ = forms; }
-  size_t bytes() const { return nodes_.bytes() + linear_rays_.bytes() + curvature_.bytes(); }
+  size_t bytes() const;
 
  private:
+  struct Key {
+    Camera camera;
+    PixelRect tile;
+    bool shifted;  ///< passes may sample up to half a pixel beside
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  struct Squares {
+    int count = 0;
+    gl::Texels nodes{GL_RGBA32UI}, linear_rays{GL_RGBA32F};
+  };
+  static Squares upload(const Key& key);
+  static gl::Texels upload_curvature(const Lens& lens);
+
   const View* view_ = nullptr;
   Forms forms_ = Forms::all_exact;
-  std::optional<Camera> camera_;  ///< kept alive: another one may not come to lie at its address
-  PixelRect tile_;
-  bool shifted_ = false;  ///< passes may sample up to half a pixel beside
-  int node_count_ = 0;
-  gl::Texels nodes_{GL_RGBA32UI}, linear_rays_{GL_RGBA32F}, curvature_{GL_RGB32F};
+  RecentCache<Key, Squares> cache_;
+  RecentCache<Lens, gl::Texels> curvatures_;
+  const Squares* squares_ = nullptr;
+  const gl::Texels* curvature_ = nullptr;  ///< null where there is no lens
 };
 
 }  // namespace omma
