@@ -15,7 +15,7 @@ void add_techniques(CLI::App& tool) {
       "but for rounding at edges.\n"
       "Examples:\n"
       "  omma techniques\n"
-      "  omma render city --camera equidistant:fov_deg=180 --technique raycast -o city.png");
+      "  omma render city --camera equidistant:fov_deg=180 --technique visibility -o city.png");
   command->callback([] {
     for (const TechniqueInfo& technique : techniques()) {
       fmt::print("{} ({}{})\n    {}\n", technique.name, technique.exact ? "exact" : "approximate",

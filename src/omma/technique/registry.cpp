@@ -80,18 +80,17 @@ std::string what_works_without_gl() {
 
 ChosenTechnique choose_technique(std::string_view text, const Camera& camera, bool colored) {
   if (text == "auto") {
-    // Nothing but shading needs a GPU, and opening one takes longer than a picture.
-    if (!colored) return find(visibility_technique.info.name);
-    // A flat camera is what GPUs are made for; every other gets the exact picture.
-    return find(planar_draws(camera) ? planar_technique.info.name : raycast_technique.info.name);
+    // Shading a flat camera's picture is what GPUs are made for. Nothing else needs one, and opening it takes longer
+    // than a picture.
+    return find(colored && planar_draws(camera) ? planar_technique.info.name : visibility_technique.info.name);
   }
   const ChosenTechnique chosen = find(text);
   if (chosen.needs_project() && camera.lens() == nullptr) {
-    throw CommandError("technique '{}' projects vertices, and {} has no formula for that; use raycast or nonlinear",
+    throw CommandError("technique '{}' projects vertices, and {} has no formula for that; use visibility or nonlinear",
                        chosen.name(), camera.pieces() != nullptr ? "a camera of pieces" : "a ray map");
   }
   if (chosen.entry == &planar_technique && !planar_draws(camera)) {
-    throw CommandError("technique 'planar' draws the perspective camera only; use auto, raycast or image-based");
+    throw CommandError("technique 'planar' draws the perspective camera only; use auto, visibility or image-based");
   }
   if (chosen.entry->refusal != nullptr) {
     if (const auto why = chosen.entry->refusal(camera)) throw CommandError("technique '{}' {}", chosen.name(), *why);

@@ -140,7 +140,7 @@ const TechniqueEntry subdivision_technique{
     },
     [](const Camera& camera) -> std::optional<std::string> {
       if (!shows_rays_twice(*camera.lens())) return {};
-      return "draws a ray at one place, and this camera shows some twice; use raycast, piecewise or image-based";
+      return "draws a ray at one place, and this camera shows some twice; use visibility, piecewise or image-based";
     }};
 
 }  // namespace omma
