@@ -13,7 +13,9 @@ void main() {
   uint batch = 0u, sum = 0u;
   for (uint i = 0u; i < DISTANCE_STEPS && batch + 1u < batch_count; ++i) {
     sum += groups_at[i];
-    while (batch + 1u < batch_count && sum >= (group_count >> (2u * (batch_count - 1u - batch)))) batch_end[batch++] = i + 1u;
+    while (batch + 1u < batch_count && sum >= (group_count >> (2u * (batch_count - 1u - batch)))) {
+      batch_end[batch++] = i + 1u;
+    }
   }
   while (batch < batch_count) batch_end[batch++] = DISTANCE_STEPS;
 }

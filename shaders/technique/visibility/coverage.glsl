@@ -22,7 +22,8 @@ float alpha_at(vec2 uv, int first, ivec2 size, uint wraps) {
   float alpha = 0.0;
   for (int i = 0; i < 4; ++i) {
     ivec2 step = ivec2(i & 1, i >> 1);
-    int x = wrapped(int(corner.x) + step.x, size.x, wraps & 3u), y = wrapped(int(corner.y) + step.y, size.y, wraps >> 2);
+    int x = wrapped(int(corner.x) + step.x, size.x, wraps & 3u);
+    int y = wrapped(int(corner.y) + step.y, size.y, wraps >> 2);
     vec2 weight = mix(1.0 - part, part, vec2(step));
     alpha += weight.x * weight.y * texelFetch(alpha_texels, first + y * size.x + x).x;
   }

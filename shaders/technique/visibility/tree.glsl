@@ -20,5 +20,6 @@ Node node_of(uint number) {
   vec4 cone = uintBitsToFloat(texelFetch(cone_texels, int(number)));
   uint farthest = texelFetch(farthest_texels, int(number)).x;
   bool has_rays = farthest != NO_RAYS;
-  return Node(cone.xyz, cone.w, sqrt(max(0.0, 1.0 - cone.w * cone.w)), has_rays ? uintBitsToFloat(farthest) : 0.0, has_rays);
+  float cosine = sqrt(max(0.0, 1.0 - cone.w * cone.w));
+  return Node(cone.xyz, cone.w, cosine, has_rays ? uintBitsToFloat(farthest) : 0.0, has_rays);
 }

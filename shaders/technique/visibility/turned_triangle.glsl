@@ -3,7 +3,7 @@
 #include "technique/visibility/bodies.glsl"
 
 layout(binding = 5) uniform samplerBuffer positions;
-layout(binding = 9) uniform usamplerBuffer triangles;         // corners, by a mesh's first texel plus the triangle's number
+layout(binding = 9) uniform usamplerBuffer triangles;         // corners; of each mesh from its first texel on
 layout(binding = 24) uniform usamplerBuffer triangle_texels;  // the numbers of each cluster's sixteen
 layout(binding = 25) uniform usamplerBuffer part_texels;
 
@@ -100,8 +100,8 @@ float product(vec3 plane, vec3 ray) {
   return sum;
 }
 
-// The inverse distance; 0 where the ray passes by. `inside` becomes its products with the edges as seen from the side that
-// `turn` says: -1 for the other side.
+// The inverse distance; 0 where the ray passes by. `inside` becomes its products with the edges, as seen from the side
+// that `turn` says: -1 for the other side.
 float meet(TurnedTriangle t, vec3 ray, out vec3 inside, out float turn) {
   turn = 1.0;
   inside = vec3(product(t.edge[0], ray), product(t.edge[1], ray), product(t.edge[2], ray));

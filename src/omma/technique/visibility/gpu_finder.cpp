@@ -162,16 +162,16 @@ void GpuFinder::pass(const GpuRays& rays, Look look, Solid solid, int batch, con
   bodies_.bind();
 
   uint32_t from = 0;
-  run_listed(program_of(tools_, "clusters.comp", {}), from, 16, from + 1);
-  ++from;
   for (size_t level = levels.size() - 1; level > 1; --level) {
-    const gl::Program& children = program_of(tools_, "clusters.comp", {{"CHILDREN", ""}});
-    children.set("node_first", levels[level].first);
-    children.set("child_first", levels[level - 1].first);
-    children.set("child_count", levels[level - 1].count);
-    run_listed(children, from, 16, from + 1);
+    const gl::Program& nodes = program_of(tools_, "nodes.comp", {});
+    nodes.set("node_first", levels[level].first);
+    nodes.set("child_first", levels[level - 1].first);
+    nodes.set("child_count", levels[level - 1].count);
+    run_listed(nodes, from, 16, from + 1);
     ++from;
   }
+  run_listed(program_of(tools_, "clusters.comp", {}), from, 16, from + 1);
+  ++from;
   const gl::Program& triangles = program_of(tools_, "triangles.comp", {});
   triangles.set("node_first", levels[1].first);
   run_listed(triangles, from, 16, from + 1);
