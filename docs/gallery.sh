@@ -51,8 +51,8 @@ effect brick:length_m=1,height_m=0.4,mortar_m=0.06 city cylinder:fov_deg=200
   --from -0.2,2.2,0.6 --to 0.1,0.6,-1.5 -o docs/images/shadows_room.png
 ./dev render city --camera panini:fov_deg=130 --size 480x360 --samples 16 --shadows cube --shadow-size 4096 \
   --from -10,30,-40 --to 0,3,0 -o docs/images/shadows_city.png
-./dev render room --camera perspective:fov_deg=40 --to 0.1,1.1,-1.5 --size 480x360 --samples 16 --reflect ring \
-  --shadows paraboloid -o docs/images/reflections.png
+./dev render room --camera perspective:fov_deg=25 --from 0.9,1.6,0.6 --to 0.75,1,-1.5 --size 480x360 --samples 16 \
+  --reflect ring --shadows paraboloid -o docs/images/reflections.png
 
 # Pieces and triangles, for docs/pieces.md; the camera texture's offsets are made here.
 ./dev render city --camera cylinder:fov_deg=360 --pieces 32 --technique piecewise --show edges --show pieces \

@@ -55,7 +55,7 @@ void add_materials(SceneBuilder& builder) {
   builder.add_material(paint_shopfront(), 0.6f);
   builder.add_material(paint_bark(), 1.0f);
   builder.add_material(paint_leaves(), 0.9f);
-  builder.add_material(paint_metal(), 0.5f, 0.5f);
+  builder.add_material(paint_metal({0.34f, 0.36f, 0.38f}), 0.5f, 0.5f);
 }
 
 }  // namespace

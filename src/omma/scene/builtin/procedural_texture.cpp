@@ -298,8 +298,8 @@ Texture paint_leaves() {
   return canvas.texture("leaves");
 }
 
-Texture paint_metal() {
-  Canvas canvas(256, {0.34f, 0.36f, 0.38f});
+Texture paint_metal(const glm::vec3& color) {
+  Canvas canvas(256, color);
   canvas.mottle(4, 0.10f, 35);
   canvas.grain(0.06f, 36);
   return canvas.texture("metal");

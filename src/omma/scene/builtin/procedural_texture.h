@@ -48,7 +48,7 @@ Texture paint_concrete();
 Texture paint_roof_tiles();
 Texture paint_bark();
 Texture paint_leaves();
-Texture paint_metal();
+Texture paint_metal(const glm::vec3& color);
 Texture paint_bricks();
 Texture paint_stone();  ///< ashlar blocks
 Texture paint_marble();

@@ -102,7 +102,7 @@ Scene make_room(const std::vector<double>&) {
   builder.add_material(planks, 0.6f);
   builder.material(wood).normal_texture = builder.add_texture(normal_map(planks, 3.0f));
   builder.add_material(paint_marble(), 0.3f);
-  builder.add_material(paint_metal(), 0.3f, 1.0f);
+  builder.add_material(paint_metal({0.84f, 0.86f, 0.88f}), 0.1f, 1.0f);
   Texture fired = paint_bark();
   fired.name = "clay";
   builder.add_material(std::move(fired), 0.5f);
