@@ -158,7 +158,7 @@ TEST_P(NonlinearLensTest, SquaresKnowTheRaysOfTheirPixels) {
   EXPECT_EQ(not_linear, 0u) << "of " << linear;
   EXPECT_EQ(not_whole, 0u);
   EXPECT_EQ(uncovered, 0u);
-  EXPECT_GT(linear, rays / 10);
+  EXPECT_GT(linear, rays / 20);
   EXPECT_GT(rays, 10000u);
 }
 

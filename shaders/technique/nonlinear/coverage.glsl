@@ -28,8 +28,8 @@ uint form_of(Pyramid pyramid) {
 }
 
 // True when all of the node's square sees the triangle.
-bool lies_within(Node node, Pyramid pyramid) {
-  if (!is_whole(node.data)) return false;
+bool lies_within(int number, Node node, Pyramid pyramid) {
+  if (!is_whole(number)) return false;
   float within = node.sine + LEEWAY;
   return dot(pyramid.side[0], node.axis) > within && dot(pyramid.side[1], node.axis) > within &&
          dot(pyramid.side[2], node.axis) > within;
@@ -61,7 +61,7 @@ uint next_piece(Pyramid pyramid, inout int node, int end) {
       node = next.skip;
       continue;
     }
-    if (next.piece == NO_PIECE && !lies_within(next, pyramid)) {
+    if (next.piece == NO_PIECE && !lies_within(node, next, pyramid)) {
       ++node;
       continue;
     }

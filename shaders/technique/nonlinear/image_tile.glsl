@@ -4,11 +4,12 @@ uniform vec2 square_shift;  // px: how far beside its pixels' centres a pass sam
 
 // Corner and side of a node's square, pixels of the target.
 ivec3 square_of(uint data) {
-  return ivec3(data & 0x3fffu, data >> 14 & 0x3fffu, 1 << int(2u * (data >> 28 & 7u)));
+  return ivec3(data & 0x3fffu, data >> 14 & 0x3fffu, 1 << int(data >> 28));
 }
 
-// Whether the camera sees something everywhere in a node's square.
-bool is_whole(uint data) { return (data & 0x80000000u) != 0u; }
+// Whether a node's square is drawn whole where a triangle covers it: the camera sees something everywhere in it, or
+// nearly so.
+bool is_whole(int node) { return texelFetch(linear_texels, 3 * node + 1).w != 0.0; }
 
 // The rays of a square as a linear function of the pixel: with u and v from -1 to 1 across it, a vector at most `off`
 // from middle + u across + v down is along the ray. Where there is none `off` is negative.

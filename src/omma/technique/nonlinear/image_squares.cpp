@@ -11,7 +11,7 @@ namespace omma {
 namespace {
 
 constexpr int leaf_side = 4;  ///< pixels, of the smallest squares where rays change evenly; elsewhere there are pixels
-constexpr int children = 4;   ///< along a side of a square
+constexpr int children = 2;   ///< along a side of a square
 
 /// What one pixel shows: up to a little within its sides, as seams of an image run between pixels. Nothing where its
 /// centre, wherever a pass has it, sees nothing: its samples go with that.
@@ -116,7 +116,7 @@ class Builder {
   }
 
   std::optional<LinearRays> linear_in(int x, int y, int leaves) {
-    if (!all_leaves(x, y, leaves, &Leaf::even)) return std::nullopt;
+    if (leaves == 0 || !all_leaves(x, y, leaves, &Leaf::even)) return std::nullopt;
     const int side = leaves * leaf_side;
     const glm::dvec2 centre =
         glm::dvec2(tile_.x0, tile_.y0) + double(leaf_side) * glm::dvec2(x, y) + glm::dvec2(0.5 * side);
@@ -144,8 +144,8 @@ class Builder {
       squares_[number].cone = *cone;
     } else {
       const glm::ivec2 first = glm::ivec2(x, y) / leaf_side;
-      const int leaves = side / leaf_side;
-      squares_[number].whole = all_leaves(first.x, first.y, leaves, &Leaf::whole);
+      const int leaves = side / leaf_side;  // none between a leaf and its pixels
+      squares_[number].whole = leaves > 0 && all_leaves(first.x, first.y, leaves, &Leaf::whole);
       const auto linear = linear_in(first.x, first.y, leaves);
       const bool is_leaf = leaves == 1 && leaf(first.x, first.y).pixels < 0;
       if (is_leaf || (linear && linear->off_px(side) < linear_within_px)) {

@@ -22,7 +22,7 @@ struct ImageSquare {
 /// Squares end where their rays are a linear function of the pixel but for this; pixels.
 constexpr double linear_within_px = 1.0;
 
-/// The squares in which the camera sees anything, of 1, 4, 16, … pixels a side, each before those that lie in it.
+/// The squares in which the camera sees anything, of 1, 2, 4, 8, … pixels a side, each before those that lie in it.
 /// `shifted`: passes may sample up to half a pixel beside.
 std::vector<ImageSquare> image_squares(const Camera& camera, const PixelRect& tile, bool shifted);
 

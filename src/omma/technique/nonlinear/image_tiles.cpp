@@ -12,8 +12,8 @@ constexpr LinearRays not_linear{.middle = {}, .across = {}, .down = {}, .off = -
 /// As in shaders/technique/nonlinear/image_tile.glsl.
 uint32_t packed(const ImageSquare& square) {
   uint32_t level = 0;
-  while (1 << 2 * level < square.side) ++level;
-  return uint32_t(square.x) | uint32_t(square.y) << 14 | level << 28 | (square.whole ? 0x80000000u : 0u);
+  while (1 << level < square.side) ++level;
+  return uint32_t(square.x) | uint32_t(square.y) << 14 | level << 28;
 }
 
 }  // namespace
@@ -26,8 +26,11 @@ ImageTiles::Squares ImageTiles::upload(const Key& key) {
     nodes.emplace_back(square.cone.axis, square.cone.angle, square.descendants == 0 ? number : ConeNode::no_piece,
                        packed(square));
     nodes.back().link.x = number + 1 + uint32_t(square.descendants);
+    // A few pixels that see nothing cost less than a polygon for each that does.
+    const bool is_whole = square.whole || square.side <= 4;
     const LinearRays rays = square.linear.value_or(not_linear);
-    linear.insert(linear.end(), {glm::vec4(rays.middle, rays.off), glm::vec4(rays.across, 0), glm::vec4(rays.down, 0)});
+    linear.insert(linear.end(),
+                  {glm::vec4(rays.middle, rays.off), glm::vec4(rays.across, is_whole), glm::vec4(rays.down, 0)});
   }
   Squares squares;
   squares.count = int(nodes.size());
