@@ -2,28 +2,19 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <glm/gtc/quaternion.hpp>
 #include <random>
 
+#include "tests/full_proof.h"
 #include "tests/gpu/gpu_test.h"
+#include "tests/gpu/random_scenes.h"
 
 namespace omma {
 namespace {
 
-/// OMMA_FULL_PROOF=1 asks for a thousand poses, OMMA_PROOF_TECHNIQUE for one technique alone.
-int pose_count() {
-  const char* full = std::getenv("OMMA_FULL_PROOF");
-  return full != nullptr && std::string(full) == "1" ? 1000 : 20;
-}
-
-glm::dmat4 random_pose(std::mt19937& random, const Bounds& bounds) {
-  std::uniform_real_distribution<double> inside(0.02, 0.98);
-  std::normal_distribution<double> normal;
-  glm::dmat4 pose =
-      glm::mat4_cast(glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))));
-  const glm::dvec3 share(inside(random), inside(random), inside(random));
-  pose[3] = glm::dvec4(bounds.min + share * bounds.extent(), 1.0);
-  return pose;
+/// The environment variable OMMA_PROOF_TECHNIQUE asks for one technique alone.
+std::vector<std::string> names_of_techniques() {
+  const char* only = std::getenv("OMMA_PROOF_TECHNIQUE");
+  return only != nullptr ? std::vector<std::string>{only} : distinct_technique_names();
 }
 
 bool has_ray_near(const Camera& camera, const glm::dvec2& pixel) {
@@ -42,18 +33,16 @@ TEST_P(ClosedSceneTest, HasNoHoles) {
   const Bounds bounds = scene.bounds();
   renderer().load(scene);
   std::vector<std::string> names;
-  const char* only = std::getenv("OMMA_PROOF_TECHNIQUE");
-  for (const std::string& technique : only != nullptr ? std::vector<std::string>{only} : distinct_technique_names()) {
+  for (const std::string& technique : names_of_techniques()) {
     // Vertices alone do not make a closed picture.
     if (can_draw(technique, camera) && technique != "vertex") names.push_back(technique);
   }
-  if (only == nullptr) {
-    ASSERT_GE(names.size(), 2u);
-  }
+  ASSERT_FALSE(names.empty());
   size_t seen = 0, strays = 0;
   std::mt19937 random(17);
-  for (int i = 0; i < pose_count(); ++i) {
-    const glm::dmat4 pose = random_pose(random, bounds);
+  const int poses = full_proof() ? 1000 : 20;
+  for (int i = 0; i < poses; ++i) {
+    const glm::dmat4 pose = pose_within(bounds, random);
     for (const std::string& technique : names) {
       const IntImage ids = draw_ids(camera, pose, technique);
       size_t holes = 0;
@@ -71,7 +60,7 @@ TEST_P(ClosedSceneTest, HasNoHoles) {
     }
   }
   EXPECT_EQ(strays, 0u);
-  EXPECT_GT(seen, size_t(pose_count()) * 1000u * names.size());
+  EXPECT_GT(seen, size_t(poses) * 1000u * names.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Cameras, ClosedSceneTest, ::testing::Range<size_t>(0, all_cameras(16).size()),

@@ -11,23 +11,13 @@
 #include "omma/technique/visibility/gpu_finder.h"
 #include "omma/visibility/find_blocks.h"
 #include "omma/visibility/finder.h"
+#include "tests/full_proof.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/oracle.h"
 #include "tests/gpu/random_scenes.h"
 
 namespace omma {
 namespace {
-
-/// Anywhere in the scene's bounds, looking anywhere.
-glm::dmat4 random_pose(std::mt19937& random, const Bounds& bounds) {
-  std::uniform_real_distribution<double> inside(0.02, 0.98);
-  std::normal_distribution<double> normal;
-  glm::dmat4 pose =
-      glm::mat4_cast(glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))));
-  const glm::dvec3 share(inside(random), inside(random), inside(random));
-  pose[3] = glm::dvec4(bounds.min + share * bounds.extent(), 1.0);
-  return pose;
-}
 
 /// Brute force judges what differs: fewer triangles than somebody would render.
 std::string small_form(const std::string& scene) {
@@ -61,7 +51,7 @@ TEST_P(FindersAgreeTest, InEveryCamera) {
     const RayTree tree(rays);
     const GpuRays gpu_rays(tree, context.limits());
     for (int p = 0; p < poses; ++p) {
-      const glm::dmat4 pose = random_pose(random, scene.bounds());
+      const glm::dmat4 pose = pose_within(scene.bounds(), random);
       std::map<std::string, IntImage> pictures;
       const auto add = [&](const std::string& finder, const auto& id_of) {
         IntImage& ids = pictures.emplace(finder, IntImage(size, 1)).first->second;

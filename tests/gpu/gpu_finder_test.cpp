@@ -12,6 +12,7 @@
 #include "omma/camera/ray_bundle.h"
 #include "omma/technique/visibility/gpu_finder.h"
 #include "omma/visibility/finder.h"
+#include "tests/full_proof.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"

@@ -9,6 +9,7 @@
 
 #include "omma/camera/pieces/approximate.h"
 #include "omma/image/write.h"
+#include "tests/full_proof.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
@@ -148,8 +149,7 @@ TEST_F(PiecewiseTest, CoversEverySampleOnce) {
   const Scene scene = make_veil();
   renderer().load(scene);
   std::mt19937 random(5);
-  const char* full = std::getenv("OMMA_FULL_PROOF");
-  const int poses = full != nullptr && std::string(full) == "1" ? 1000 : 10;
+  const int poses = full_proof() ? 1000 : 10;
   for (const auto& [name, camera] : kinds_of_cameras()) {
     size_t pixels = 0;
     for (int i = 0; i < poses; ++i) {

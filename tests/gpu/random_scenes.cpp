@@ -1,20 +1,13 @@
 #include "tests/gpu/random_scenes.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
-#include <random>
-#include <string>
+#include <glm/gtc/quaternion.hpp>
 
 #include "omma/math/heading.h"
 #include "tests/gpu/hand_made.h"
 
 namespace omma {
-
-bool full_proof() {
-  const char* full = std::getenv("OMMA_FULL_PROOF");
-  return full != nullptr && std::string(full) == "1";
-}
 
 Scene random_soup(int triangles, unsigned seed, float unit) {
   std::mt19937 random(seed);
@@ -78,6 +71,16 @@ Scene dented_ball(unsigned seed, const Material& material) {
   mesh.material = maker.add(material);
   maker.place(maker.add(mesh), glm::dmat4(1.0));
   return maker.finish();
+}
+
+glm::dmat4 pose_within(const Bounds& bounds, std::mt19937& random) {
+  std::uniform_real_distribution<double> inside(0.02, 0.98);
+  std::normal_distribution<double> normal;
+  glm::dmat4 pose =
+      glm::mat4_cast(glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))));
+  const glm::dvec3 share(inside(random), inside(random), inside(random));
+  pose[3] = glm::dvec4(bounds.min + share * bounds.extent(), 1.0);
+  return pose;
 }
 
 glm::dmat4 pose_at(const glm::dvec3& place, double yaw, double pitch) {

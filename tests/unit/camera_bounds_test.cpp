@@ -1,20 +1,16 @@
 // Bounding shapes enclose what they say they enclose: random triangles, their images sampled densely.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <map>
 
+#include "tests/full_proof.h"
 #include "tests/unit/bounding_shape_cases.h"
 
 namespace omma {
 namespace {
 
-/// OMMA_FULL_PROOF=1 asks for ten million triangles.
-size_t triangles_of_each_camera(size_t cameras) {
-  const char* full = std::getenv("OMMA_FULL_PROOF");
-  return full != nullptr && std::string_view(full) == "1" ? 10'000'000 / cameras + 1 : 400;
-}
+size_t triangles_of_each_camera(size_t cameras) { return full_proof() ? 10'000'000 / cameras + 1 : 400; }
 
 struct Tally {
   size_t triangles = 0, points = 0, outside = 0;

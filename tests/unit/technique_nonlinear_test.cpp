@@ -2,23 +2,20 @@
 // cone.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <glm/gtc/constants.hpp>
 #include <random>
 #include <string>
 
 #include "omma/technique/nonlinear/image_squares.h"
 #include "omma/technique/nonlinear/lens_curvature.h"
+#include "tests/full_proof.h"
 #include "tests/unit/camera_samples.h"
 
 namespace omma {
 namespace {
 
-/// OMMA_FULL_PROOF=1 asks for ten million cases over all lenses.
-size_t cases_per_camera(size_t few) {
-  const char* full = std::getenv("OMMA_FULL_PROOF");
-  return full != nullptr && std::string(full) == "1" ? 10000000 / (6 * lens_models().size()) : few;
-}
+/// Ten million over all lenses are the full proof.
+size_t cases_per_camera(size_t few) { return full_proof() ? 10000000 / (6 * lens_models().size()) : few; }
 
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
   const glm::dvec2 along = b - a;

@@ -11,6 +11,7 @@
 #include "omma/camera/ray_bundle.h"
 #include "omma/visibility/find_blocks.h"
 #include "omma/visibility/finder.h"
+#include "tests/full_proof.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
 #include "tests/gpu/random_scenes.h"
