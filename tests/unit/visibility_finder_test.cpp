@@ -127,6 +127,35 @@ TEST(FinderTest, NeitherHugeNorTinyScenesLoseAnything) {
   EXPECT_GT(std::count_if(expected.begin(), expected.end(), [](const glm::uvec2& hit) { return hit.x != none; }), 1000);
 }
 
+TEST(FinderTest, EdgesFromNearToFarStayWhereTheyAre) {
+  std::mt19937 random(41);
+  std::normal_distribution<float> normal;
+  std::uniform_real_distribution<float> exponent(-1.0f, 4.0f);
+  Material material;
+  material.double_sided = true;
+  SceneMaker maker;
+  Mesh mesh;
+  mesh.material = maker.add(material);
+  for (uint32_t i = 0; i < 300; ++i) {
+    const glm::vec3 direction(0.15f * normal(random), 0.15f * normal(random), -1.0f);
+    mesh.positions.push_back(std::pow(10.0f, exponent(random)) * direction);
+    if (i % 3 == 2) mesh.triangles.emplace_back(i - 2, i - 1, i);
+  }
+  mesh.normals.assign(mesh.positions.size(), {0, 0, 1});
+  maker.place(maker.add(mesh), glm::dmat4(1.0));
+  const Scene scene = maker.finish();
+  const Camera camera =
+      make_camera("perspective:fov_deg=20", full_proof() ? ImageSize{1600, 1200} : ImageSize{400, 300});
+  Finder finder(scene);
+  finder.set_view(glm::dmat4(1.0));
+  const Picture picture = find(finder, RayTree(rays_of(camera)));
+  const Verdict verdict =
+      judge(Oracle(scene, glm::dmat4(1.0)), camera, ids_of(picture, camera.size()), {.radius = 1e-3});
+  EXPECT_EQ(verdict.wrong, 0u) << verdict.first_wrong;
+  EXPECT_LT(verdict.edges + verdict.ties, 20u);
+  EXPECT_GT(verdict.hits, verdict.pixels / 4);
+}
+
 TEST(FinderTest, LosesNothingAMillionMetresAway) {
   const Camera camera = make_camera("equidistant:fov_deg=300", ImageSize{48, 48});
   const RayTree rays(rays_of(camera));

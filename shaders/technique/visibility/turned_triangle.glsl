@@ -39,6 +39,11 @@ Part part_of(uint number) {
   return Part(uintBitsToFloat(first.x), first.y, uintBitsToFloat(first.z), first.w, second.x, number);
 }
 
+float product(vec3 a, vec3 b) {
+  precise float sum = a.x * b.x + a.y * b.y + a.z * b.z;
+  return sum;
+}
+
 // `slot`: group, cluster of it, triangle of that. False where there is none, or its back is turned.
 bool turned_triangle(uint slot, out TurnedTriangle t) {
   uvec2 placed = texelFetch(placed_group_texels, int(slot >> 8)).xy;
@@ -55,11 +60,16 @@ bool turned_triangle(uint slot, out TurnedTriangle t) {
   vec3 farthest = max(abs(t.corner[0]), max(abs(t.corner[1]), abs(t.corner[2])));
   if (!(farthest.x + farthest.y + farthest.z < 1e6)) return false;
 
-  precise vec3 ab = t.corner[1] - t.corner[0], ac = t.corner[2] - t.corner[0];
+  float square[3] = float[3](product(t.corner[0], t.corner[0]), product(t.corner[1], t.corner[1]),
+                             product(t.corner[2], t.corner[2]));
+  // From its nearest corner, whose products lose least.
+  int base = square[2] < min(square[0], square[1]) ? 2 : square[0] < square[1] ? 0 : 1;
+  vec3 nearest = t.corner[base];
+  precise vec3 ab = t.corner[(base + 1) % 3] - nearest, ac = t.corner[(base + 2) % 3] - nearest;
   precise vec3 normal = cross(ab, ac);
-  precise float volume = dot(normal, t.corner[0]);
+  precise float volume = product(normal, nearest);
   // The squares of what rounding may make of the volume.
-  precise float doubt = dot(ab, ab) * dot(ac, ac) * dot(t.corner[0], t.corner[0]) * (EDGE_ON * EDGE_ON);
+  precise float doubt = dot(ab, ab) * dot(ac, ac) * square[base] * (EDGE_ON * EDGE_ON);
   t.unsure = volume * volume <= doubt;
   t.two_sided = t.unsure && t.part.front == 0.0;
   if (normal == vec3(0.0)) return false;
@@ -67,12 +77,13 @@ bool turned_triangle(uint slot, out TurnedTriangle t) {
 
   float side = (t.part.front == 0.0 ? volume : t.part.front) < 0.0 ? -1.0 : 1.0;
   for (int i = 0; i < 3; ++i) {
-    // Twice the product of both corners, without its loss of digits where they are close to each other; the same to the
-    // bit, turned round, for the triangle on the other side.
-    vec3 p = t.corner[(i + 1) % 3], q = t.corner[(i + 2) % 3];
-    precise vec3 sum = p + q, along = q - p;
-    precise vec3 plane = vec3(sum.y * along.z - sum.z * along.y, sum.z * along.x - sum.x * along.z,
-                              sum.x * along.y - sum.y * along.x);
+    // The product of both corners, without its loss of digits where they are close to each other, or one of them is far
+    // away; the same to the bit, turned round, for the triangle on the other side.
+    int from = (i + 1) % 3, to = (i + 2) % 3;
+    vec3 p = t.corner[from], q = t.corner[to];
+    precise vec3 near = square[from] < square[to] ? p : square[to] < square[from] ? q : 0.5 * (p + q), along = q - p;
+    precise vec3 plane = vec3(near.y * along.z - near.z * along.y, near.z * along.x - near.x * along.z,
+                              near.x * along.y - near.y * along.x);
     t.edge[i] = side * plane;
   }
   precise vec3 inverse = t.unsure ? vec3(0.0) : normal * (1.0 / volume);
@@ -93,11 +104,6 @@ bool may_see(TurnedTriangle t, Node node) {
   if (!front && !back) return false;
   float nearest = length(t.inverse) * node.sine + abs(dot(t.inverse, node.axis));
   return t.unsure || nearest * t.scale * (1.0 + SLACK) >= node.farthest;
-}
-
-float product(vec3 plane, vec3 ray) {
-  precise float sum = plane.x * ray.x + plane.y * ray.y + plane.z * ray.z;
-  return sum;
 }
 
 // The inverse distance; 0 where the ray passes by. `inside` becomes its products with the edges, as seen from the side

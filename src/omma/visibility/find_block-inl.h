@@ -217,11 +217,16 @@ class BlockFinder {
       corner[i] = transform(column, origin,
                             {load(cluster.corner[i][0]), load(cluster.corner[i][1]), load(cluster.corner[i][2])});
     }
-    const Vectors ab = corner[1] - corner[0], ac = corner[2] - corner[0];
+    const Floats square[3] = {dot(corner[0], corner[0]), dot(corner[1], corner[1]), dot(corner[2], corner[2])};
+    // From its nearest corner, whose products lose least.
+    const Mask before = square[0] < square[1], last = square[2] < min(square[0], square[1]);
+    const Vectors nearest = choose(last, corner[2], choose(before, corner[0], corner[1]));
+    const Vectors ab = choose(last, corner[0], choose(before, corner[1], corner[2])) - nearest;
+    const Vectors ac = choose(last, corner[1], choose(before, corner[2], corner[0])) - nearest;
     const Vectors normal = cross(ab, ac);
-    const Floats volume = dot(normal, corner[0]);
+    const Floats volume = dot(normal, nearest);
     // The squares of what rounding may make of the volume.
-    const Floats doubt = dot(ab, ab) * dot(ac, ac) * dot(corner[0], corner[0]) * all(edge_on * edge_on);
+    const Floats doubt = dot(ab, ab) * dot(ac, ac) * dot(nearest, nearest) * all(edge_on * edge_on);
     const Floats zero = all(0.0f);
     const Mask unsure = volume * volume <= doubt;
     const Floats side = front == 0.0f ? volume : all(front);
@@ -231,11 +236,14 @@ class BlockFinder {
     const Cone& cone = block_->cone;
     const Vectors axis = all(cone.axis.x, cone.axis.y, cone.axis.z);
     for (int i = 0; i < 3; ++i) {
-      // Twice the product of both corners, without its loss of digits where they are close to each other; the same
-      // to the bit, turned round, for the triangle on the other side.
-      const Vectors& p = corner[(i + 1) % 3];
-      const Vectors& q = corner[(i + 2) % 3];
-      Vectors plane = cross(p + q, q - p);
+      // The product of both corners, without its loss of digits where they are close to each other, or one of them is
+      // far away; the same to the bit, turned round, for the triangle on the other side.
+      const int from = (i + 1) % 3, to = (i + 2) % 3;
+      const Vectors& p = corner[from];
+      const Vectors& q = corner[to];
+      const Vectors near =
+          choose(square[from] < square[to], p, choose(square[to] < square[from], q, (p + q) * all(0.5f)));
+      Vectors plane = cross(near, q - p);
       plane = {times_sign(plane.x, side), times_sign(plane.y, side), times_sign(plane.z, side)};
       const Floats length = length_or_more(plane);
       if (front != 0.0f)

@@ -163,6 +163,9 @@ HWY_INLINE Vectors all(float x, float y, float z) { return {all(x), all(y), all(
 HWY_INLINE Vectors operator+(const Vectors& a, const Vectors& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 HWY_INLINE Vectors operator-(const Vectors& a, const Vectors& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 HWY_INLINE Vectors operator*(const Vectors& a, const Floats& b) { return {a.x * b, a.y * b, a.z * b}; }
+HWY_INLINE Vectors choose(const Mask& mask, const Vectors& yes, const Vectors& no) {
+  return {choose(mask, yes.x, no.x), choose(mask, yes.y, no.y), choose(mask, yes.z, no.z)};
+}
 HWY_INLINE Floats dot(const Vectors& a, const Vectors& b) { return mul_add(a.x, b.x, mul_add(a.y, b.y, a.z * b.z)); }
 /// Without contraction: a vector times itself is zero, and turning one round turns the result round, to the bit.
 HWY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
