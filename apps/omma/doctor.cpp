@@ -71,6 +71,8 @@ void print_context(const gl::Context& context) {
   fmt::print("  samples         {} (more are accumulated)\n", limits.samples);
   fmt::print("  array layers    {}\n", limits.array_layers);
   fmt::print("  buffer texels   {}\n", limits.buffer_texels);
+  fmt::print("  storage bytes   {}\n", limits.storage_bytes);
+  fmt::print("  64-bit atomics  {}\n", limits.atomics_64 ? "yes" : "no (visibility:gpu takes two passes)");
   fmt::print("  anisotropy      {}\n", limits.anisotropy);
 }
 
