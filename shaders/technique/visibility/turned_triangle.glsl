@@ -121,13 +121,13 @@ float meet(TurnedTriangle t, vec3 ray, out vec3 inside, out float turn) {
     turn = -1.0;
     inside = -inside;
   }
-  precise float distance = 0.0, terms = 0.0;
+  precise float distance = 0.0, doubt = 0.0;
   for (int i = 0; i < 3; ++i) {
-    precise float along = product(t.corner[i], ray);
-    distance += inside[i] * along;
-    terms += inside[i] * abs(along);
+    distance += inside[i] * product(t.corner[i], ray);
+    float rounding = inside[i] * 1e-6 + product(abs(t.edge[i]), abs(ray)) * 3e-7;
+    doubt += rounding * product(abs(t.corner[i]), abs(ray));
   }
   // A triangle around the centre, in a plane through it, is met nowhere else: there, terms cancel but for rounding.
   precise float inverse = (inside.x + inside.y + inside.z) * t.scale / distance;
-  return distance > terms * 1e-6 ? inverse : 0.0;
+  return distance > doubt ? inverse : 0.0;
 }

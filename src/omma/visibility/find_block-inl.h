@@ -342,15 +342,16 @@ class BlockFinder {
     Mask hit = (inside[0] >= zero) & (inside[1] >= zero) & (inside[2] >= zero);
     Floats inverse;
     if (turned_.by_weights >> t & 1) {
-      Floats distance = zero, terms = zero;
+      Floats distance = zero, doubt = zero;
       for (int i = 0; i < 3; ++i) {
         const Vectors corner = all(turned_.corner[i][0][t], turned_.corner[i][1][t], turned_.corner[i][2][t]);
-        const Floats along = dot(corner, ray);
-        distance = mul_add(inside[i], along, distance);
-        terms = mul_add(inside[i], abs(along), terms);
+        distance = mul_add(inside[i], dot(corner, ray), distance);
+        const Vectors plane = all(turned_.edge[i][0][t], turned_.edge[i][1][t], turned_.edge[i][2][t]);
+        const Floats rounding = mul_add(inside[i], all(1e-6f), dot(abs(plane), abs(ray)) * all(3e-7f));
+        doubt = mul_add(rounding, dot(abs(corner), abs(ray)), doubt);
       }
       // A triangle around the centre, in a plane through it, is met nowhere else: there, terms cancel but for rounding.
-      hit = hit & (distance > terms * all(1e-6f));
+      hit = hit & (distance > doubt);
       inverse = (inside[0] + inside[1] + inside[2]) * all(body.scale) / distance;
     } else {
       inverse = dot(all(turned_.depth[0][t], turned_.depth[1][t], turned_.depth[2][t]), ray);

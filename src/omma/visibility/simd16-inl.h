@@ -166,6 +166,7 @@ HWY_INLINE Vectors operator*(const Vectors& a, const Floats& b) { return {a.x * 
 HWY_INLINE Vectors choose(const Mask& mask, const Vectors& yes, const Vectors& no) {
   return {choose(mask, yes.x, no.x), choose(mask, yes.y, no.y), choose(mask, yes.z, no.z)};
 }
+HWY_INLINE Vectors abs(const Vectors& a) { return {abs(a.x), abs(a.y), abs(a.z)}; }
 HWY_INLINE Floats dot(const Vectors& a, const Vectors& b) { return mul_add(a.x, b.x, mul_add(a.y, b.y, a.z * b.z)); }
 /// Without contraction: a vector times itself is zero, and turning one round turns the result round, to the bit.
 HWY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
