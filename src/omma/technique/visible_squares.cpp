@@ -10,7 +10,7 @@ VisibleSquares::VisibleSquares(const Scene& scene)
     : scene_(scene), seen_(scene.triangle_count()), place_(scene.triangle_count()) {}
 
 void VisibleSquares::sort(const VisibleTriangles& visible, std::span<uint32_t> places) {
-  const auto [width, height] = visible.size;
+  const int width = visible.size.width, height = visible.size.height;
   const glm::ivec2 count((width + side - 1) / side, (height + side - 1) / side);
   const auto row_of = [&](int y) { return visible.hits.data() + size_t(y) * size_t(width); };
 

@@ -30,7 +30,7 @@ void each_pixel(const RayBlock& block, ImageSize size, const Each& each) {
 /// Calls `each(first pixel, count)` for the rows of what the image has no rays in.
 template <typename Each>
 void each_blank_row(const RayTree& rays, const Each& each) {
-  const auto [width, height] = rays.size();
+  const int width = rays.size().width, height = rays.size().height;
   tbb::parallel_for(size_t{0}, rays.blank().size(), [&](size_t i) {
     const glm::ivec2 corner = rays.blank()[i];
     for (int y = corner.y; y < std::min(corner.y + RayBlock::side, height); ++y) {
