@@ -29,9 +29,9 @@ std::vector<std::pair<std::string, int64_t>> targets_at_hand() {
 
 HWY_EXPORT(find_blocks);
 
-void find_blocks(const BlockQuery& query, std::span<const RayBlock> blocks, const BlockSource& source,
-                 const BlockSink& sink) {
-  HWY_DYNAMIC_DISPATCH(find_blocks)(query, blocks, source, sink);
+void find_blocks(const BlockQuery& query, std::span<const RayBlock> blocks, std::span<const BlockOrigins> origins,
+                 const BlockSource& source, const BlockSink& sink) {
+  HWY_DYNAMIC_DISPATCH(find_blocks)(query, blocks, origins, source, sink);
 }
 
 std::vector<std::string> simd_targets() {

@@ -37,9 +37,9 @@ using BlockSink = std::function<void(const RayBlock&, const BlockPicture&, std::
 /// Fills the nearest inverse distances in before the search that collects.
 using BlockSource = std::function<void(const RayBlock&, BlockPicture&)>;
 
-/// On one thread, by the best SIMD target of this processor.
-void find_blocks(const BlockQuery& query, std::span<const RayBlock> blocks, const BlockSource& source,
-                 const BlockSink& sink);
+/// On one thread, by the best SIMD target of this processor. `origins` is empty or as long as `blocks`.
+void find_blocks(const BlockQuery& query, std::span<const RayBlock> blocks, std::span<const BlockOrigins> origins,
+                 const BlockSource& source, const BlockSink& sink);
 
 /// The SIMD instruction sets that this processor can find with, the best first: that one is used. Those with fused
 /// multiplication and addition agree to the bit, and so do those without.

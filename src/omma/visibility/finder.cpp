@@ -41,9 +41,12 @@ void each_blank_row(const RayTree& rays, const Each& each) {
 
 void find(const RayTree& rays, const BlockQuery& query, const BlockSource& source, const BlockSink& sink) {
   const std::span<const RayBlock> blocks(rays.blocks());
+  const std::span<const BlockOrigins> origins(rays.origins());
   tbb::parallel_for(tbb::blocked_range<size_t>(0, blocks.size(), blocks_at_once),
                     [&](const tbb::blocked_range<size_t>& range) {
-                      find_blocks(query, blocks.subspan(range.begin(), range.size()), source, sink);
+                      const size_t first = range.begin(), count = range.size();
+                      find_blocks(query, blocks.subspan(first, count),
+                                  origins.empty() ? origins : origins.subspan(first, count), source, sink);
                     });
 }
 

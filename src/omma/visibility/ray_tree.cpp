@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "omma/base/error.h"
 
 namespace omma {
 namespace {
@@ -82,6 +85,54 @@ bool fill(const RayMap& rays, RayBlock& block) {
   return true;
 }
 
+void check(const RayMap& rays, std::span<const glm::vec3> origins) {
+  if (!origins.empty() && origins.size() != rays.directions.size()) {
+    throw CommandError("{} rays with {} origins; each has one, or none has", rays.directions.size(), origins.size());
+  }
+  for (const glm::vec3& origin : origins) {
+    if (!(std::isfinite(origin.x) && std::isfinite(origin.y) && std::isfinite(origin.z))) {
+      throw CommandError("a ray begins at {}, {}, {}, which is nowhere", origin.x, origin.y, origin.z);
+    }
+  }
+}
+
+/// Calls `each(leaf, ray, number of the ray)` for the rays that there are.
+template <typename Each>
+void each_ray_number(const RayBlock& block, ImageSize size, const Each& each) {
+  for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
+    for (int ray = 0; ray < 16; ++ray) {
+      if (!(block.rays[leaf] >> ray & 1)) continue;
+      const int x = block.pixel_x + RayBlock::x_of(leaf, ray), y = block.pixel_y + RayBlock::y_of(leaf, ray);
+      each(leaf, ray, size_t(y) * size_t(size.width) + size_t(x));
+    }
+  }
+}
+
+void fill(ImageSize size, std::span<const glm::vec3> origins, const RayBlock& block, BlockOrigins& filled) {
+  filled = {};
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+  each_ray_number(block, size, [&](int, int, size_t number) {
+    low = glm::min(low, glm::dvec3(origins[number]));
+    high = glm::max(high, glm::dvec3(origins[number]));
+  });
+  filled.apex = glm::vec3(0.5 * (low + high));
+  double radius = 0.0;
+  each_ray_number(block, size, [&](int leaf, int ray, size_t number) {
+    const glm::dvec3 offset = glm::dvec3(origins[number]) - glm::dvec3(filled.apex);
+    const glm::dvec3 direction(block.x[leaf][ray], block.y[leaf][ray], block.z[leaf][ray]);
+    const glm::dvec3 moment = glm::cross(offset, direction);
+    filled.x[leaf][ray] = float(offset.x);
+    filled.y[leaf][ray] = float(offset.y);
+    filled.z[leaf][ray] = float(offset.z);
+    filled.moment_x[leaf][ray] = float(moment.x);
+    filled.moment_y[leaf][ray] = float(moment.y);
+    filled.moment_z[leaf][ray] = float(moment.z);
+    filled.along[leaf][ray] = float(glm::dot(offset, direction));
+    radius = std::max(radius, glm::length(offset));
+  });
+  filled.radius = float(radius * (1.0 + slack));
+}
+
 /// The bits of both numbers by turns: Morton's order.
 uint64_t interleaved(int x, int y) {
   uint64_t result = 0;
@@ -93,7 +144,8 @@ uint64_t interleaved(int x, int y) {
 
 }  // namespace
 
-RayTree::RayTree(const RayMap& rays) : size_(rays.size) {
+RayTree::RayTree(const RayMap& rays, std::span<const glm::vec3> origins) : size_(rays.size) {
+  check(rays, origins);
   const int across = (size_.width + RayBlock::side - 1) / RayBlock::side;
   const int down = (size_.height + RayBlock::side - 1) / RayBlock::side;
   std::vector<glm::ivec2> places;
@@ -119,6 +171,9 @@ RayTree::RayTree(const RayMap& rays) : size_(rays.size) {
     }
   }
   blocks_.resize(kept);
+  if (origins.empty()) return;
+  origins_.resize(kept);
+  tbb::parallel_for(size_t{0}, kept, [&](size_t i) { fill(rays.size, origins, blocks_[i], origins_[i]); });
 }
 
 }  // namespace omma

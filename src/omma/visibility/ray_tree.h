@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "omma/camera/camera.h"
@@ -34,23 +35,40 @@ struct alignas(64) RayBlock {
   static int y_of(int leaf, int ray) { return leaf / 4 * leaf_side + ray / leaf_side; }
 };
 
+/// Where the rays of a block begin, metres in the camera frame. The block sees the scene from its apex, in the middle
+/// of its rays' beginnings; they lie within `radius` of it.
+struct alignas(64) BlockOrigins {
+  float x[RayBlock::leaves][16], y[RayBlock::leaves][16], z[RayBlock::leaves][16];  ///< from the apex
+  float moment_x[RayBlock::leaves][16], moment_y[RayBlock::leaves][16],
+      moment_z[RayBlock::leaves][16];  ///< x × direction
+  float along[RayBlock::leaves][16];   ///< x · direction
+  glm::vec3 apex;
+  float radius;
+};
+
 class RayTree {
  public:
   RayTree() = default;
-  /// Directions of unit length, or zero for no ray. Runs on all cores.
-  explicit RayTree(const RayMap& rays);
+  /// Directions of unit length, or zero for no ray. Rays begin at the camera's centre, or, as those of omnidirectional
+  /// stereo, each at its own of `origins`: metres in the camera frame, as many as directions. Neighbours that begin
+  /// near each other are found soonest. Throws CommandError for origins that are not as many or not finite. Runs on all
+  /// cores.
+  explicit RayTree(const RayMap& rays, std::span<const glm::vec3> origins = {});
 
   ImageSize size() const { return size_; }
   /// Those in which there is a ray, neighbours near to each other.
   const std::vector<RayBlock>& blocks() const { return blocks_; }
   /// The first pixels of those in which there is none.
   const std::vector<glm::ivec2>& blank() const { return blank_; }
-  size_t bytes() const { return blocks_.size() * sizeof(RayBlock); }
+  /// By the blocks; empty where all rays begin at the camera's centre.
+  const std::vector<BlockOrigins>& origins() const { return origins_; }
+  size_t bytes() const { return blocks_.size() * sizeof(RayBlock) + origins_.size() * sizeof(BlockOrigins); }
 
  private:
   ImageSize size_;
   std::vector<RayBlock> blocks_;
   std::vector<glm::ivec2> blank_;
+  std::vector<BlockOrigins> origins_;
 };
 
 }  // namespace omma
