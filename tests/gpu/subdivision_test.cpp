@@ -15,8 +15,6 @@
 namespace omma {
 namespace {
 
-constexpr const char* technique = "subdivision";
-
 /// Poles, the antipode, seams, borders of what is seen, borders of cube faces.
 constexpr const char* cameras[] = {
     "equidistant:fov_deg=180,width=128,height=96",
@@ -50,16 +48,17 @@ Scene make_box(const glm::vec3& half) {
   return maker.finish();
 }
 
-class SubdivisionTest : public GpuTest {
+class SubdivisionTest : public GpuTest, public ::testing::WithParamInterface<const char*> {
  protected:
+  static const char* technique() { return GetParam(); }
   static IntImage ids(const Camera& camera, const glm::dmat4& pose, double tolerance_px = 0.25, int tile = 0) {
     return std::get<IntImage>(draw(camera, pose, {Channel::id},
-                                   {.technique = technique, .pieces = {.tolerance_px = tolerance_px}, .tile = tile})
+                                   {.technique = technique(), .pieces = {.tolerance_px = tolerance_px}, .tile = tile})
                                   .at(Channel::id));
   }
 };
 
-TEST_F(SubdivisionTest, HugeTrianglesLieWithinTheTolerance) {
+TEST_P(SubdivisionTest, HugeTrianglesLieWithinTheTolerance) {
   std::mt19937 random(5);
   for (const glm::vec3& half : {glm::vec3(1.0f), glm::vec3(40.0f, 0.5f, 7.0f)}) {
     const Scene scene = make_box(half);
@@ -78,7 +77,7 @@ TEST_F(SubdivisionTest, HugeTrianglesLieWithinTheTolerance) {
   }
 }
 
-TEST_F(SubdivisionTest, ASmallerToleranceIsNearerToRaycast) {
+TEST_P(SubdivisionTest, ASmallerToleranceIsNearerToRaycast) {
   const Scene scene = load_scene("temple");
   const glm::dmat4 pose = default_pose(scene);
   renderer().load(scene);
@@ -91,7 +90,7 @@ TEST_F(SubdivisionTest, ASmallerToleranceIsNearerToRaycast) {
   EXPECT_LT(3.0 * fine, coarse);
 }
 
-TEST_F(SubdivisionTest, FollowsASceneThatChangesEveryFrame) {
+TEST_P(SubdivisionTest, FollowsASceneThatChangesEveryFrame) {
   Scene scene = make_ball_and_pane();
   renderer().load(scene);
   const Camera camera = make_camera("cylinder:fov_deg=360", ImageSize{200, 120});
@@ -104,7 +103,7 @@ TEST_F(SubdivisionTest, FollowsASceneThatChangesEveryFrame) {
   }
 }
 
-TEST_F(SubdivisionTest, BlendedTrianglesKeepTheirOrderInParts) {
+TEST_P(SubdivisionTest, BlendedTrianglesKeepTheirOrderInParts) {
   SceneMaker maker;
   const auto glass = [&](const glm::vec4& color) {
     Material material = unlit(color);
@@ -124,17 +123,17 @@ TEST_F(SubdivisionTest, BlendedTrianglesKeepTheirOrderInParts) {
       return draw_color(camera, glm::dmat4(1.0), {.technique = name, .samples = 4, .pieces = {.tolerance_px = 0.05}});
     };
     // The same samples, other than raycast's. Observed: at least 41 dB.
-    EXPECT_GT(psnr(picture(technique), picture("piecewise")), 36.0) << text;
+    EXPECT_GT(psnr(picture(technique()), picture("piecewise")), 36.0) << text;
   }
 }
 
-TEST_F(SubdivisionTest, BuffersGrowWithWhatIsSplit) {
+TEST_P(SubdivisionTest, BuffersGrowWithWhatIsSplit) {
   const Scene scene = load_scene("room");
   const Camera camera = make_camera("equirectangular:width=400,height=200");
   const glm::dmat4 pose = default_pose(scene);
   const Channel wanted[] = {Channel::id};
   const auto picture = [&](Renderer& renderer, double tolerance_px, RenderStats* stats = nullptr) {
-    const RenderOptions options{.technique = technique, .pieces = {.tolerance_px = tolerance_px}};
+    const RenderOptions options{.technique = technique(), .pieces = {.tolerance_px = tolerance_px}};
     return std::get<IntImage>(renderer.render(camera, pose, wanted, options, stats).at(Channel::id));
   };
   Renderer fresh;
@@ -150,7 +149,7 @@ TEST_F(SubdivisionTest, BuffersGrowWithWhatIsSplit) {
   EXPECT_EQ(share_of_differences(grown, picture(other, 0.02)), 0.0);
 }
 
-TEST_F(SubdivisionTest, TilesAreClosedToo) {
+TEST_P(SubdivisionTest, TilesAreClosedToo) {
   const Scene scene = make_box(glm::vec3(3.0f, 1.0f, 2.0f));
   renderer().load(scene);
   std::mt19937 random(11);
@@ -163,13 +162,13 @@ TEST_F(SubdivisionTest, TilesAreClosedToo) {
   }
 }
 
-TEST_F(SubdivisionTest, RefusesWhatItCannotDraw) {
+TEST_P(SubdivisionTest, RefusesWhatItCannotDraw) {
   const Scene scene = load_scene("facade:detail=0");
   renderer().load(scene);
   const glm::dmat4 pose = default_pose(scene);
   for (const char* text : {"dual_fisheye:width=96,height=48,circle_fov_deg=195", "barrel:width=80,height=32"}) {
     try {
-      draw_ids(make_camera(text), pose, technique);
+      draw_ids(make_camera(text), pose, technique());
       ADD_FAILURE() << text;
     } catch (const CommandError& error) {
       EXPECT_NE(std::string(error.what()).find("twice"), std::string::npos) << error.what();
@@ -180,6 +179,9 @@ TEST_F(SubdivisionTest, RefusesWhatItCannotDraw) {
     EXPECT_THROW(ids(camera, pose, tolerance), CommandError) << tolerance;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Variants, SubdivisionTest, ::testing::Values("subdivision:feedback", "subdivision:tessellator"),
+                         [](const auto& tested) { return test_name(tested.param); });
 
 }  // namespace
 }  // namespace omma

@@ -28,6 +28,7 @@ void read_triangle() {
   }
   record.weight = vec2[3](vec2(0.0), vec2(1.0, 0.0), vec2(0.0, 1.0));
   record.broken = 0u;
+  record.decided = uvec3(0u);
   precise vec3 ab = record.position[1] - record.position[0], ac = record.position[2] - record.position[0];
   precise float volume = dot(record.position[0], cross(ab, ac));
   candidate.faces = volume != 0.0 && uintBitsToFloat(in_triangle.w) * volume <= 0.0 ? 1u : 0u;

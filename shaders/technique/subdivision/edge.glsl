@@ -6,7 +6,8 @@ uniform vec2 edge_range;       // lengths, as the distance of two rays on the un
                                // split, shorter ones never
 uniform vec4 tile_border;      // pixels, a little outside the tile: left, top, right, bottom
 
-const int STRAIGHT = 0, SPLIT = 1, BROKEN = 2;
+// What becomes of an edge: one of these, or how often it is halved until its parts are straight.
+const int BROKEN = -2, SPLIT = -1, STRAIGHT = 0;
 
 // The sides of the tile that a pixel lies beyond. Whatever is not seen lies beyond all.
 int beyond(vec2 pixel) {
@@ -94,6 +95,25 @@ float greatest_deviation(vec3 a, vec3 b, vec2 a_pixel, vec2 middle_pixel, vec2 b
   return 2.0 * length(max(turn, abs(first + second - 2.0 * middle_pixel)));
 }
 
+#ifdef TESSELLATED
+// Tessellation units take factors to 64; that leaves the inside of a triangle twice its edges' factor.
+const int MOST_HALVINGS = 5;
+
+// How often an edge is halved until its parts are straight; SPLIT where its five points do not tell: where it is not
+// about as curved all along, or turns so far that a triangle of such edges might hold a pole.
+int halvings(vec3 a, vec3 b, vec2 a_pixel, vec2 middle_pixel, vec2 b_pixel) {
+  vec2 first = pixel_of(3.0 * a + b), second = pixel_of(a + 3.0 * b);
+  vec2 turn = a_pixel + middle_pixel - 2.0 * first, middle_turn = first + second - 2.0 * middle_pixel,
+       last_turn = middle_pixel + b_pixel - 2.0 * second;
+  float most = 2.0 * length(max(max(abs(turn), abs(middle_turn)), abs(last_turn)));
+  float change = 2.0 * length(max(max(turn, middle_turn), last_turn) - min(min(turn, middle_turn), last_turn));
+  float deviation = most + change;
+  bool is_even = change <= 0.5 * most && deviation <= 0.125 * distance(a_pixel, b_pixel);
+  float count = max(ceil(0.5 * log2(deviation / tolerance)), 1.0);  // halving an edge quarters the deviation
+  return is_even && count <= float(MOST_HALVINGS) ? int(count) : SPLIT;
+}
+#endif
+
 int ordered_edge_state(vec3 a, vec3 b, vec2 a_pixel, vec2 b_pixel) {
   if (a == vec3(0.0) || b == vec3(0.0)) return BROKEN;
   vec3 a_ray = normalize(a), b_ray = normalize(b);
@@ -116,6 +136,13 @@ int ordered_edge_state(vec3 a, vec3 b, vec2 a_pixel, vec2 b_pixel) {
   bool is_straight = deviation <= tolerance;
   if (is_straight && is_smooth) return STRAIGHT;
   bool is_final = size <= edge_range.y;
+#ifdef TESSELLATED
+  int count = SPLIT;
+  for (bool look = all_seen && is_smooth && !is_final; look; look = false) {
+    count = halvings(a_ray, b_ray, a_pixel, middle_pixel, b_pixel);
+  }
+  if (count != SPLIT) return count;
+#endif
   for (bool is_small = !is_final && size < 0.1 * edge_range.x; is_small; is_small = false) {
     is_final = max(reach(a, b, a_pixel), reach(b, a, b_pixel)) <= 0.5 * tolerance;
   }

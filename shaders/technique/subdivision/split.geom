@@ -46,6 +46,19 @@ void halve(Record r, int i, out vec3 position, out vec2 pixel, out vec2 weight) 
   weight = mix(r.weight[i], r.weight[j], middle_share(r.position[i], r.position[j]));
 }
 
+#ifdef TESSELLATED
+// What is decided of the line between two of the six points of emit_parts: an edge, half of one, or within.
+uint decided_of_line(uvec3 decided, int p, int q) {
+  for (int edge = 0; edge < 3; ++edge) {
+    bool p_ends = p == edge || p == (edge + 1) % 3, q_ends = q == edge || q == (edge + 1) % 3;
+    if (p_ends && q_ends) return decided[edge];
+    bool is_half = (p_ends && q == 3 + edge) || (q_ends && p == 3 + edge);
+    if (is_half) return max(decided[edge], 1u) - 1u;
+  }
+  return 0u;
+}
+#endif
+
 void emit_parts(Record r, bvec3 split) {
   int count = int(split.x) + int(split.y) + int(split.z);
   // Six points: the corners and the middles of the edges that follow them, turned so that of one or two edges the first
@@ -53,8 +66,10 @@ void emit_parts(Record r, bvec3 split) {
   int turn = count == 1 ? (split.x ? 0 : split.y ? 1 : 2) : count == 2 ? (!split.z ? 0 : !split.x ? 1 : 2) : 0;
   vec3 position[6];
   vec2 pixel[6], weight[6];
+  uvec3 decided;
   for (int i = 0; i < 3; ++i) {
     int corner = (i + turn) % 3;
+    decided[i] = r.decided[corner];
     position[i] = r.position[corner];
     pixel[i] = r.pixel[corner];
     weight[i] = r.weight[corner];
@@ -79,6 +94,10 @@ void emit_parts(Record r, bvec3 split) {
     }
     child.whose = r.whose;
     child.broken = 0u;
+    child.decided = uvec3(0u);
+#ifdef TESSELLATED
+    for (int i = 0; i < 3; ++i) child.decided[i] = decided_of_line(decided, part[k][i], part[k][(i + 1) % 3]);
+#endif
 #ifdef SORTED
     kept = pack_record(child);
     EmitStreamVertex(0);
@@ -96,10 +115,22 @@ void main() {
   for (bool look = drawn; look; look = false) {
     for (int i = 0; i < 3; ++i) {
       int j = (i + 1) % 3;
-      state[i] = edge_state(r.position[i], r.position[j], r.pixel[i], r.pixel[j]);
+      state[i] = r.decided[i] > 0u ? int(r.decided[i]) - 1
+                                   : edge_state(r.position[i], r.position[j], r.pixel[i], r.pixel[j]);
     }
   }
   bvec3 split = equal(state, ivec3(SPLIT)), broken = equal(state, ivec3(BROKEN));
+#ifdef TESSELLATED
+  // The tessellation unit halves edges only of triangles that are whole, and in no order.
+  bvec3 halved = greaterThan(state, ivec3(STRAIGHT));
+#ifdef SORTED
+  bool halves = any(halved) && !any(split);
+#else
+  bool halves = any(halved) && !any(split) && any(broken);
+#endif
+  if (halves) split = halved;
+  if (halves || !any(split)) r.decided = uvec3(max(state + 1, 0));
+#endif
   bool done = drawn && !any(split) && (beyond(r.pixel[0]) & beyond(r.pixel[1]) & beyond(r.pixel[2])) == 0;
   r.broken = uint(broken.x) | uint(broken.y) << 1 | uint(broken.z) << 2;
 #ifdef SORTED
@@ -109,10 +140,16 @@ void main() {
   }
 #else
   bool is_straight = done && r.broken == 0u;
-  if (is_part && is_straight) {
-    straight = candidate[0].texel;
+#ifdef TESSELLATED
+  bool as_it_is = !is_part && !any(halved);
+#else
+  bool as_it_is = !is_part;
+#endif
+  if (is_straight && !as_it_is) {
+    straight = pack_record(r);
     EmitStreamVertex(0);
   }
+  is_straight = is_straight && as_it_is;
   if (!is_part) {
     plain_corners = is_straight ? candidate[0].corners : uvec3(candidate[0].corners.x);
     EmitStreamVertex(3);

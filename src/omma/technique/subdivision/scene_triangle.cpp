@@ -24,8 +24,11 @@ gl::VertexArray create_triangle_array(GLuint divisor) {
   return array;
 }
 
-const gl::Program& split_program(DrawTools& tools, const View& view, const LensField& field, gl::Defines defines) {
-  defines.merge(subdivision_defines(field, view));
+const gl::Program& split_program(DrawTools& tools, const View& view, const LensField& field, SplitForm form,
+                                 bool sorted) {
+  gl::Defines defines = subdivision_defines(field, view);
+  if (form == SplitForm::to_even) defines["TESSELLATED"] = "";
+  if (sorted) defines["SORTED"] = "";
   return tools.programs.get({{GL_VERTEX_SHADER, "technique/subdivision/candidate.vert"},
                              {GL_GEOMETRY_SHADER, "technique/subdivision/split.geom"}},
                             defines);

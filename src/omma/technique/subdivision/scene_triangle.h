@@ -18,7 +18,14 @@ SceneTriangle scene_triangle(const GpuScene& scene, const ScenePixels& pixels, c
 /// A vertex array of SceneTriangles, one for each vertex or, with divisor 1, for each instance.
 gl::VertexArray create_triangle_array(GLuint divisor);
 
-/// A pass with technique/subdivision/split.geom.
-const gl::Program& split_program(DrawTools& tools, const View& view, const LensField& field, gl::Defines defines);
+/// What is done of the splitting.
+enum class SplitForm {
+  all,      ///< what comes out is drawn as it is
+  to_even,  ///< until a tessellation unit can halve each edge as often as it takes
+};
+
+/// A pass with technique/subdivision/split.geom. `sorted`: all into one list, nothing left to a tessellation unit.
+const gl::Program& split_program(DrawTools& tools, const View& view, const LensField& field, SplitForm form,
+                                 bool sorted);
 
 }  // namespace omma

@@ -4,13 +4,16 @@
 #include <map>
 
 #include "omma/technique/mesh_pass.h"
-#include "omma/technique/subdivision/scene_triangle.h"
 #include "omma/technique/subdivision/splitter.h"
 
 namespace omma {
 
-SortedSplitter::SortedSplitter(DrawTools& tools, const ScenePixels& pixels)
-    : tools_(tools), pixels_(pixels), triangle_array_(create_triangle_array(0)), record_array_(create_record_array()) {}
+SortedSplitter::SortedSplitter(DrawTools& tools, const ScenePixels& pixels, SplitForm form)
+    : tools_(tools),
+      pixels_(pixels),
+      form_(form),
+      triangle_array_(create_triangle_array(0)),
+      record_array_(create_record_array()) {}
 
 void SortedSplitter::split(const View& view, const LensField& field, double tolerance_px) {
   lists_[0].clear();
@@ -19,7 +22,7 @@ void SortedSplitter::split(const View& view, const LensField& field, double tole
     triangles.push_back(scene_triangle(tools_.scene, pixels_, tools_.scene.parts()[triangle.part], triangle.number));
   }
   if (triangles.empty()) return;
-  const gl::Program& program = split_program(tools_, view, field, {{"SORTED", ""}});
+  const gl::Program& program = split_program(tools_, view, field, form_, true);
   program.use();
   set_field(program, field, view, tolerance_px);
   tools_.scene.bind();

@@ -5,12 +5,14 @@
 #include "omma/technique/subdivision/lens_field.h"
 #include "omma/technique/subdivision/record_list.h"
 #include "omma/technique/subdivision/scene_pixels.h"
+#include "omma/technique/subdivision/scene_triangle.h"
 
 namespace omma {
 
 class SortedSplitter {
  public:
-  SortedSplitter(DrawTools& tools, const ScenePixels& pixels);
+  /// `form`: of the other triangles, whose edges are then split where these are.
+  SortedSplitter(DrawTools& tools, const ScenePixels& pixels, SplitForm form);
 
   void split(const View& view, const LensField& field, double tolerance_px);
 
@@ -25,6 +27,7 @@ class SortedSplitter {
 
   DrawTools& tools_;
   const ScenePixels& pixels_;
+  SplitForm form_;
   gl::VertexArray triangle_array_, record_array_;
   std::array<RecordList, 2> lists_;
 };

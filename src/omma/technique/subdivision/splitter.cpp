@@ -3,8 +3,6 @@
 #include <map>
 #include <tuple>
 
-#include "omma/technique/subdivision/scene_triangle.h"
-
 namespace omma {
 namespace {
 
@@ -24,8 +22,12 @@ constexpr uint32_t first_records = 4096;
 
 }  // namespace
 
-Splitter::Splitter(DrawTools& tools, const ScenePixels& pixels)
-    : tools_(tools), pixels_(pixels), part_array_(create_triangle_array(1)), record_array_(create_record_array()) {
+Splitter::Splitter(DrawTools& tools, const ScenePixels& pixels, SplitForm form)
+    : tools_(tools),
+      pixels_(pixels),
+      form_(form),
+      part_array_(create_triangle_array(1)),
+      record_array_(create_record_array()) {
   plain_ = gl::Buffer(tools.scene.scene().triangle_count() * sizeof(glm::uvec3));
   for (RecordList* list : {&straight_, &border_, &next_[0], &next_[1]}) list->reserve(first_records);
   sort_parts();
@@ -66,7 +68,7 @@ void Splitter::sort_parts() {
 void Splitter::split(const View& view, const LensField& field, double tolerance_px, bool blended) {
   passes_ = overflows_ = 0;
   for (RecordList* list : {&straight_, &border_, &next_[0], &next_[1]}) list->clear();
-  const gl::Program& program = split_program(tools_, view, field, {});
+  const gl::Program& program = split_program(tools_, view, field, form_, false);
   program.use();
   set_field(program, field, view, tolerance_px);
   tools_.scene.bind();

@@ -9,6 +9,7 @@
 #include "omma/technique/subdivision/lens_field.h"
 #include "omma/technique/subdivision/record_list.h"
 #include "omma/technique/subdivision/scene_pixels.h"
+#include "omma/technique/subdivision/scene_triangle.h"
 
 namespace omma {
 
@@ -25,7 +26,7 @@ class Splitter {
   /// Halving ends where edges are straight, or too short for any sample, after 20 or so; no picture takes longer.
   static constexpr int most_passes = 40;
 
-  Splitter(DrawTools& tools, const ScenePixels& pixels);
+  Splitter(DrawTools& tools, const ScenePixels& pixels, SplitForm form);
 
   /// The scene's opaque triangles, and the blended ones where `blended`.
   void split(const View& view, const LensField& field, double tolerance_px, bool blended);
@@ -37,6 +38,7 @@ class Splitter {
   const gl::Buffer& plain_indices() const { return plain_; }
   /// Draws what is drawn as it is, by `plain_indices`; the scene's vertices are bound.
   void draw_plain(size_t group) const;
+  /// Edges are straight, or have to be halved as often as each record says.
   const RecordList& straight() const { return straight_; }
   const RecordList& border() const { return border_; }
 
@@ -53,6 +55,7 @@ class Splitter {
 
   DrawTools& tools_;
   const ScenePixels& pixels_;
+  SplitForm form_;
   std::vector<SplitGroup> groups_;
   gl::Buffer plain_, part_records_, point_commands_, plain_commands_;
   gl::VertexArray part_array_, record_array_;

@@ -19,10 +19,22 @@ double checked_tolerance(const View& view) {
   return tolerance_px;
 }
 
+struct Variant {
+  const char* name;
+  const char* description;
+  SplitForm form;
+};
+
+constexpr Variant variants[] = {
+    {"feedback", "all splitting by passes of transform feedback", SplitForm::all},
+    {"tessellator", "edges halved by the tessellation unit, after such passes where it takes too much or too uneven",
+     SplitForm::to_even},
+};
+
 class Subdivision : public Technique {
  public:
-  explicit Subdivision(DrawTools& tools)
-      : tools_(tools), pixels_(tools), splitter_(tools, pixels_), sorted_(tools, pixels_) {}
+  Subdivision(DrawTools& tools, SplitForm form)
+      : tools_(tools), form_(form), pixels_(tools), splitter_(tools, pixels_, form), sorted_(tools, pixels_, form) {}
   bool multisamples() const override { return true; }
   void scene_changed() override { splitter_.scene_changed(); }
   size_t buffer_bytes() const override { return pixels_.bytes() + splitter_.bytes() + sorted_.bytes(); }
@@ -74,10 +86,21 @@ class Subdivision : public Technique {
       splitter_.draw_plain(group);
     }
     glVertexArrayElementBuffer(scene_array, tools_.scene.indices().id());
-    MeshPass parts = mesh_pass(view, tolerance_px, {{GL_VERTEX_SHADER, "technique/subdivision/straight.vert"}});
-    parts.defines["PULLED"] = "";
-    draw_records(view, parts, splitter_.straight());
-    draw_records(view, border_pass(view, tolerance_px), splitter_.border());
+    draw_parts(view, tolerance_px);
+    draw_records(view, border_pass(view, tolerance_px), GL_TRIANGLES, splitter_.border());
+  }
+
+  void draw_parts(const View& view, double tolerance_px) {
+    const bool tessellates = form_ == SplitForm::to_even;
+    MeshPass pass =
+        mesh_pass(view, tolerance_px,
+                  tessellates ? std::vector<gl::Stage>{{GL_VERTEX_SHADER, "technique/subdivision/patch.vert"},
+                                                       {GL_TESS_CONTROL_SHADER, "technique/subdivision/patch.tesc"},
+                                                       {GL_TESS_EVALUATION_SHADER, "technique/subdivision/patch.tese"}}
+                              : std::vector<gl::Stage>{{GL_VERTEX_SHADER, "technique/subdivision/straight.vert"}});
+    pass.defines["PULLED"] = "";
+    glPatchParameteri(GL_PATCH_VERTICES, 3);
+    draw_records(view, pass, tessellates ? GL_PATCHES : GL_TRIANGLES, splitter_.straight());
   }
 
   MeshPass border_pass(const View& view, double tolerance_px) {
@@ -88,7 +111,7 @@ class Subdivision : public Technique {
     return pass;
   }
 
-  void draw_records(const View& view, const MeshPass& pass, const RecordList& list) {
+  void draw_records(const View& view, const MeshPass& pass, GLenum mode, const RecordList& list) {
     list.bind(20);
     glBindVertexArray(tools_.no_vertices.id());
     for (size_t group = 0; group < splitter_.groups().size(); ++group) {
@@ -102,7 +125,7 @@ class Subdivision : public Technique {
       }
       if (firsts.empty()) continue;
       use_material(tools_, pass, view, of.material, of.mirrored);
-      glMultiDrawArrays(GL_TRIANGLES, firsts.data(), counts.data(), GLsizei(firsts.size()));
+      glMultiDrawArrays(mode, firsts.data(), counts.data(), GLsizei(firsts.size()));
     }
   }
 
@@ -120,12 +143,19 @@ class Subdivision : public Technique {
   }
 
   DrawTools& tools_;
+  SplitForm form_;
   ScenePixels pixels_;
   Splitter splitter_;
   SortedSplitter sorted_;
   std::optional<LensField> field_;
   std::optional<Camera> field_camera_;
 };
+
+std::vector<VariantInfo> variant_infos() {
+  std::vector<VariantInfo> infos;
+  for (const Variant& variant : variants) infos.push_back({variant.name, variant.description});
+  return infos;
+}
 
 }  // namespace
 
@@ -134,9 +164,11 @@ const TechniqueEntry subdivision_technique{
      .description = "triangles split until straight edges are within the tolerance of the lens's; no cracks",
      .exact = false,
      .needs_project = true,
-     .variants = {}},
-    [](DrawTools& tools, const std::string&) -> std::unique_ptr<Technique> {
-      return std::make_unique<Subdivision>(tools);
+     .variants = variant_infos()},
+    [](DrawTools& tools, const std::string& name) -> std::unique_ptr<Technique> {
+      const Variant& variant = *std::find_if(std::begin(variants), std::end(variants),
+                                             [&](const Variant& entry) { return entry.name == name; });
+      return std::make_unique<Subdivision>(tools, variant.form);
     },
     [](const Camera& camera) -> std::optional<std::string> {
       if (!shows_rays_twice(*camera.lens())) return {};
