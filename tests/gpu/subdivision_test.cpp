@@ -180,7 +180,8 @@ TEST_P(SubdivisionTest, RefusesWhatItCannotDraw) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, SubdivisionTest, ::testing::Values("subdivision:feedback", "subdivision:tessellator"),
+INSTANTIATE_TEST_SUITE_P(Variants, SubdivisionTest,
+                         ::testing::Values("subdivision:feedback", "subdivision:tessellator"),
                          [](const auto& tested) { return test_name(tested.param); });
 
 }  // namespace
