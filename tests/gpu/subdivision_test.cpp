@@ -120,9 +120,9 @@ TEST_P(SubdivisionTest, BlendedTrianglesKeepTheirOrderInParts) {
   for (const char* text : cameras) {
     const Camera camera = make_camera(text);
     const auto picture = [&](const char* name) {
-      return draw_color(camera, glm::dmat4(1.0), {.technique = name, .samples = 4, .pieces = {.tolerance_px = 0.05}});
+      return draw_color(camera, glm::dmat4(1.0), {.technique = name, .samples = 4, .pieces = {.tolerance_px = 0.2}});
     };
-    // The same samples, other than raycast's. Observed: at least 41 dB.
+    // The same samples, other than raycast's. Observed: at least 40.8 dB.
     EXPECT_GT(psnr(picture(technique()), picture("piecewise")), 36.0) << text;
   }
 }

@@ -63,7 +63,7 @@ TEST_P(TechniquesTest, DrawsRealScenesAsRaycastDoes) {
   // (thin columns, fewer texels than pixels at the corners of a flat picture; 12% else) and 28.3 dB; vertex 75% and
   // 10.7 dB (it leaves out the ground under the camera, and whatever crosses a seam); piecewise 5.9% (`temple` through
   // a strong distortion, whose columns are pixels apart: edges lie up to a quarter of a pixel off) and 29.0 dB;
-  // subdivision 3.9% (the same columns) and 29.3 dB.
+  // subdivision 3.3% (the same columns) and 29.3 dB.
   const std::string technique = info_of(GetParam()).name;
   const bool exact = info_of(GetParam()).exact, has_tolerance = technique == "piecewise" || technique == "subdivision";
   EXPECT_LT(worst_share, exact ? 0.001 : technique == "vertex" ? 0.8 : has_tolerance ? 0.08 : 0.15);
@@ -71,10 +71,12 @@ TEST_P(TechniquesTest, DrawsRealScenesAsRaycastDoes) {
   EXPECT_GT(least_psnr, exact ? 26.0 : technique == "vertex" ? 9.0 : has_tolerance ? 28.0 : 27.0);
 }
 
-/// All but raycast itself, which has a test of its own against the oracle.
+/// All but raycast itself, which has a test of its own against the oracle, and what SubdivisionTest shows to be the
+/// same within the tolerance.
 std::vector<std::string> compared_techniques() {
   std::vector<std::string> names = distinct_technique_names();
   std::erase(names, "raycast");
+  std::erase(names, "subdivision:tessellator");
   return names;
 }
 
