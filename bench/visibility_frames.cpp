@@ -30,7 +30,7 @@ struct Case {
   std::string title;
   Filter filter = Filter::trilinear;
   bool textured = true;
-  bool moving = false;  ///< every vertex, with every frame
+  bool moving = false;  ///< every vertex, with every frame; an animated scene by its first animation
   bool slow = false;    ///< with the slow techniques
 };
 
@@ -62,11 +62,10 @@ class Contest {
   Contest(Scene& scene, const Case& tested) : scene_(scene), tested_(tested) {
     options_.filter = tested.filter;
     options_.samples = 1;
-    if (tested.moving) {
+    if (tested.moving && scene.animations.empty()) {
       for (Mesh& mesh : scene.meshes) mesh.rest_positions = mesh.positions;
-    } else {
-      add_renderer();
     }
+    if (!tested.moving) add_renderer();
     std::vector<const char*> drawn(std::begin(techniques_drawn), std::end(techniques_drawn));
     if (tested.slow) drawn.insert(drawn.end(), std::begin(slow_techniques), std::end(slow_techniques));
     for (const char* technique : drawn) {
@@ -118,7 +117,12 @@ class Contest {
   template <typename Update>
   double follow(const Update& update) {
     if (!tested_.moving) return 0.0;
-    move_vertices(scene_, ++frame_);
+    ++frame_;
+    if (scene_.animations.empty()) {
+      move_vertices(scene_, frame_);
+    } else {
+      set_time(scene_, frame_ / 24.0);
+    }
     const auto begin = std::chrono::steady_clock::now();
     update();
     return milliseconds_since(begin);
@@ -151,7 +155,7 @@ nlohmann::json Contest::run(int runs) {
   }
   fmt::print("\n{}, {} triangles, {}{}\n\n", tested_.title, scene_.triangle_count(),
              tested_.textured ? filter_name(tested_.filter) : "without textures",
-             tested_.moving ? "; all vertices move with every frame" : "");
+             tested_.moving ? scene_.animations.empty() ? "; all vertices move with every frame" : "; animated" : "");
   fmt::print(
       "| technique | ms (10–90%) | × best image-based | ns per pixel with a ray | × planar, per pixel | × Embree, "
       "Lambert | "
@@ -250,6 +254,9 @@ nlohmann::json run_visibility_frames(const Options& options) {
     const std::string title = options.scene.substr(options.scene.rfind('/') + 1);
     cases.push_back({options.scene, {.title = title, .slow = true}});
     cases.push_back({options.scene, {.title = title, .filter = Filter::anisotropic}});
+    if (!load_scene(options.scene).animations.empty()) {
+      cases.push_back({options.scene, {.title = title, .moving = true}});
+    }
   }
   fmt::print("\nWhole frames, {} x {}, one sample per pixel, `{}`; planar is `perspective:fov_deg=90`. Runs: {}.\n",
              size.width, size.height, lens, runs);

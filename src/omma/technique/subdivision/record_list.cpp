@@ -14,7 +14,7 @@ void RecordList::append(size_t group, uint32_t count) {
 
 void RecordList::reserve(uint32_t records) {
   if (buffer_ && capacity() >= records) return;
-  gl::Buffer larger(record_bytes * (size_t(records) + records / 2));
+  gl::Buffer larger(record_bytes * (size_t(records) + records / 2 + 1));
   if (size_ > 0) glCopyNamedBufferSubData(buffer_.id(), larger.id(), 0, 0, GLsizeiptr(size_ * record_bytes));
   buffer_ = std::move(larger);
   texture_ = gl::Texture::of_buffer(GL_RGBA32UI, buffer_);

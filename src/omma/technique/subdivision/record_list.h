@@ -22,7 +22,8 @@ class RecordList {
   void append(size_t group, uint32_t count);
   /// Room for so many, with what is in it kept.
   void reserve(uint32_t records);
-  uint32_t capacity() const { return uint32_t(buffer_.bytes() / record_bytes); }
+  /// The buffer holds one record more: what is captured goes behind the last one, and may not go to nowhere.
+  uint32_t capacity() const { return uint32_t(buffer_.bytes() / record_bytes) - 1; }
   CaptureTarget end() const { return {buffer_, size_ * record_bytes}; }
 
   const std::vector<Run>& runs() const { return runs_; }
