@@ -117,10 +117,12 @@ class Builder {
 
   std::optional<LinearRays> linear_in(int x, int y, int leaves) {
     if (leaves == 0 || !all_leaves(x, y, leaves, &Leaf::even)) return std::nullopt;
+    const GridPart part = part_of(x, y, leaves, shifted_ ? 1 : 0);
+    if (leaves > 1 && is_plainly_bent(grid_, part, linear_within_px)) return std::nullopt;
     const int side = leaves * leaf_side;
     const glm::dvec2 centre =
         glm::dvec2(tile_.x0, tile_.y0) + double(leaf_side) * glm::dvec2(x, y) + glm::dvec2(0.5 * side);
-    return linear_rays(grid_, part_of(x, y, leaves, shifted_ ? 1 : 0), centre, side);
+    return linear_rays(grid_, part, centre, side);
   }
 
   bool sees_nearby(int x, int y) {

@@ -1,6 +1,7 @@
 #include "omma/technique/nonlinear/ray_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -106,6 +107,25 @@ double LinearRays::off_px(int side) const {
   const double aa = glm::dot(across, across), bb = glm::dot(down, down), ab = glm::dot(across, down);
   const double least2 = 0.5 * (aa + bb - std::hypot(aa - bb, 2.0 * ab));
   return least2 > 0.0 ? 0.5 * side * off / std::sqrt(least2) : std::numeric_limits<double>::infinity();
+}
+
+bool is_plainly_bent(const RayGrid& grid, const GridPart& part, double limit) {
+  const glm::dvec3 middle = grid.at((part.x0 + part.x1) / 2, (part.y0 + part.y1) / 2);
+  const std::array corners{grid.at(part.x0, part.y0), grid.at(part.x1, part.y0), grid.at(part.x0, part.y1),
+                           grid.at(part.x1, part.y1)};
+  glm::dvec3 mean(0.0);
+  for (const glm::dvec3& corner : corners) {
+    if (glm::dot(corner, middle) < 0.1) return true;
+    mean += 0.25 * corner / glm::dot(corner, middle);
+  }
+  // Of a linear function the middle is the corners' mean. Half of what they differ by is off at one of them, and as
+  // much again where the part has no point in its very middle.
+  const glm::dvec2 steps(part.x1 - part.x0, part.y1 - part.y0);
+  const double widest = 0.5 *
+                        std::max(glm::distance(corners[0], corners[1]) + glm::distance(corners[2], corners[3]),
+                                 glm::distance(corners[0], corners[2]) + glm::distance(corners[1], corners[3])) /
+                        (std::min(steps.x, steps.y) * grid.step);
+  return 0.25 * glm::distance(mean, middle) > limit * widest + widest * grid.step;
 }
 
 LinearRays linear_rays(const RayGrid& grid, const GridPart& part, const glm::dvec2& centre, int side) {

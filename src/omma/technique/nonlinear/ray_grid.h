@@ -56,6 +56,10 @@ struct LinearRays {
   double off_px(int side) const;
 };
 
+/// True where a look at a part's middle and corners tells that no linear function is within `limit` pixels; the grid's
+/// step and the rays say what a pixel is.
+bool is_plainly_bent(const RayGrid& grid, const GridPart& part, double limit);
+
 /// Of the rays of an even part. The square is given by its centre, image pixels, and its side.
 LinearRays linear_rays(const RayGrid& grid, const GridPart& part, const glm::dvec2& centre, int side);
 
