@@ -21,7 +21,7 @@ struct Cell {
   glm::dvec2 place{0.0};  ///< on the face, -1 to 1; beyond that, on its plane
 };
 
-/// As in shaders/technique/nonlinear/curvature.glsl.
+/// As in shaders/technique/nonlinear/outline.glsl.
 Cell cell_of(const glm::dvec3& d) {
   const glm::dvec3 size = glm::abs(d);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

@@ -118,8 +118,8 @@ bool is_plainly_bent(const RayGrid& grid, const GridPart& part, double limit) {
     if (glm::dot(corner, middle) < 0.1) return true;
     mean += 0.25 * corner / glm::dot(corner, middle);
   }
-  // Of a linear function the middle is the corners' mean. Half of what they differ by is off at one of them, and as
-  // much again where the part has no point in its very middle.
+  // Of a linear function the middle is the corners' mean: any is off by half of what they differ by, at one of the
+  // five. A part without a point in its very middle may have them differ by a step more.
   const glm::dvec2 steps(part.x1 - part.x0, part.y1 - part.y0);
   const double widest = 0.5 *
                         std::max(glm::distance(corners[0], corners[1]) + glm::distance(corners[2], corners[3]),
