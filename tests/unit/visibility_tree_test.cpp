@@ -1,5 +1,6 @@
 // Bodies and their trees of boxes: complete, tight, and refitted when vertices move.
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,11 +68,25 @@ std::vector<int> check(const Body& body, const Mesh& mesh) {
 }
 
 TEST(BodyTest, HoldsEveryTriangleOnceWithinItsBoxes) {
-  for (const size_t count : {0, 1, 15, 16, 17, 100, 257, 20000}) {
+  for (const size_t count : {0, 1, 15, 16, 17, 100, 257, 20000, 200000}) {
     const Scene scene = scene_of(random_mesh(count, 3));
     const std::vector<int> met = check(Body(scene, {0}), scene.meshes[0]);
     EXPECT_TRUE(std::all_of(met.begin(), met.end(), [](int times) { return times == 1; })) << count;
   }
+}
+
+TEST(BodyTest, IsTheSameOnOneCore) {
+  const Scene scene = scene_of(random_mesh(200000, 9));
+  const Body body(scene, {0});
+  tbb::task_arena(1).execute([&] {
+    const Body alone(scene, {0});
+    EXPECT_EQ(body.tree.order, alone.tree.order);
+    ASSERT_EQ(body.clusters.size(), alone.clusters.size());
+    for (size_t i = 0; i < body.clusters.size(); ++i) {
+      ASSERT_TRUE(
+          std::equal(body.clusters[i].triangle, body.clusters[i].triangle + Cluster::size, alone.clusters[i].triangle));
+    }
+  });
 }
 
 TEST(BodyTest, WastesNoLanesOnASurface) {
@@ -86,7 +101,7 @@ TEST(BodyTest, WastesNoLanesOnASurface) {
       mesh.triangles.emplace_back(corner, corner + side + 2, corner + side + 1);
     }
   }
-  EXPECT_LT(make_clusters(mesh).size(), 2 * side * side / 16 * 5 / 4);
+  EXPECT_LT(group_triangles(mesh).size(), 2 * side * side / 16 * 5 / 4);
 }
 
 TEST(BodyTest, PutsUpWithTrianglesAtOnePlaceAndWithHugeOnes) {

@@ -8,22 +8,27 @@
 namespace omma {
 
 Body::Body(const Scene& scene, std::vector<int> of_meshes) : meshes(std::move(of_meshes)) {
-  std::vector<Cluster> all;
-  std::vector<uint32_t> parts;
+  std::vector<std::vector<TriangleGroup>> groups(meshes.size());
+  tbb::parallel_for(size_t{0}, meshes.size(),
+                    [&](size_t i) { groups[i] = group_triangles(scene.meshes[size_t(meshes[i])]); });
+  std::vector<Box> boxes;
+  std::vector<std::pair<uint32_t, uint32_t>> places;  // mesh, group
   for (uint32_t i = 0; i < meshes.size(); ++i) {
-    const std::vector<Cluster> more = make_clusters(scene.meshes[size_t(meshes[i])]);
-    all.insert(all.end(), more.begin(), more.end());
-    parts.insert(parts.end(), more.size(), i);
+    for (uint32_t j = 0; j < groups[i].size(); ++j) {
+      boxes.push_back(groups[i][j].box);
+      places.emplace_back(i, j);
+    }
   }
-  std::vector<Box> boxes(all.size());
-  tbb::parallel_for(size_t{0}, all.size(),
-                    [&](size_t i) { boxes[i] = all[i].fill(scene.meshes[size_t(meshes[parts[i]])]); });
   tree = build_box_tree(boxes, 1);
   // In the tree's order neighbours are near to each other in memory, too.
-  for (const BoxTree::Leaf& leaf : tree.leaves) {
-    clusters.push_back(all[tree.order[leaf.first]]);
-    part.push_back(parts[tree.order[leaf.first]]);
-  }
+  clusters.resize(tree.leaves.size());
+  part.resize(tree.leaves.size());
+  tbb::parallel_for(size_t{0}, clusters.size(), [&](size_t leaf) {
+    const auto [mesh, group] = places[tree.order[tree.leaves[leaf].first]];
+    part[leaf] = mesh;
+    std::copy_n(groups[mesh][group].triangle, Cluster::size, clusters[leaf].triangle);
+    clusters[leaf].fill(scene.meshes[size_t(meshes[mesh])]);
+  });
   for (BoxNode& node : tree.nodes) {
     for (uint32_t lane = 0; lane < node.count; ++lane) {
       if (node.child[lane] & BoxNode::leaf) node.tag[lane] = part[node.child[lane] & ~BoxNode::leaf];

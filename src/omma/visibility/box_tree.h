@@ -3,30 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "omma/visibility/box.h"
+
 namespace omma {
-
-struct Box {
-  glm::vec3 min{std::numeric_limits<float>::infinity()};
-  glm::vec3 max{-std::numeric_limits<float>::infinity()};
-
-  void add(const glm::vec3& point) {
-    min = glm::min(min, point);
-    max = glm::max(max, point);
-  }
-  void add(const Box& other) {
-    min = glm::min(min, other.min);
-    max = glm::max(max, other.max);
-  }
-  float half_area() const {
-    const glm::vec3 e = max - min;
-    return e.x * e.y + e.y * e.z + e.z * e.x;
-  }
-};
 
 struct alignas(64) BoxNode {
   static constexpr uint32_t width = 16;
@@ -56,7 +38,7 @@ struct BoxTree {
   void refit(std::span<const Box> boxes);
 };
 
-/// At most `leaf_size` boxes a leaf. Boxes are finite. Runs on all cores; the result does not depend on how many.
+/// 1 to 128 boxes a leaf at most. Boxes are finite. Runs on all cores; the result does not depend on how many.
 BoxTree build_box_tree(std::span<const Box> boxes, uint32_t leaf_size);
 
 }  // namespace omma

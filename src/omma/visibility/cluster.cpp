@@ -1,7 +1,8 @@
 #include "omma/visibility/cluster.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "omma/visibility/area_tree.h"
 
 namespace omma {
 namespace {
@@ -35,7 +36,7 @@ Box Cluster::fill(const Mesh& mesh) {
   return box.min.x <= box.max.x ? box : Box{glm::vec3(0.0f), glm::vec3(0.0f)};
 }
 
-std::vector<Cluster> make_clusters(const Mesh& mesh) {
+std::vector<TriangleGroup> group_triangles(const Mesh& mesh) {
   std::vector<uint32_t> triangles;
   std::vector<Box> boxes;
   triangles.reserve(mesh.triangles.size());
@@ -45,16 +46,23 @@ std::vector<Cluster> make_clusters(const Mesh& mesh) {
     triangles.push_back(t);
     boxes.push_back(box_of(mesh, t));
   }
-  const BoxTree tree = build_box_tree(boxes, Cluster::size);
-  std::vector<Cluster> clusters(tree.leaves.size());
-  for (size_t i = 0; i < clusters.size(); ++i) {
-    std::fill_n(clusters[i].triangle, Cluster::size, Cluster::unused);
-    const BoxTree::Leaf& leaf = tree.leaves[i];
-    for (uint32_t lane = 0; lane < leaf.count; ++lane) {
-      clusters[i].triangle[lane] = triangles[tree.order[leaf.first + lane]];
+  std::vector<TriangleGroup> groups;
+  if (boxes.empty()) return groups;
+  const AreaTree tree(boxes, Cluster::size);
+  const auto add_leaves = [&](const auto& self, const AreaTree::Part& part) -> void {
+    if (part.left) {
+      self(self, *part.left);
+      self(self, *part.right);
+      return;
     }
-  }
-  return clusters;
+    TriangleGroup& group = groups.emplace_back();
+    group.box = part.box;
+    for (uint32_t lane = 0; lane < Cluster::size; ++lane) {
+      group.triangle[lane] = lane < part.count ? triangles[tree.order[part.first + lane]] : Cluster::unused;
+    }
+  };
+  add_leaves(add_leaves, *tree.root);
+  return groups;
 }
 
 }  // namespace omma

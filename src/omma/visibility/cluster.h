@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "omma/scene/scene.h"
-#include "omma/visibility/box_tree.h"
+#include "omma/visibility/box.h"
 
 namespace omma {
 
@@ -16,12 +16,21 @@ struct alignas(64) Cluster {
   float corner[3][3][size];  ///< [corner][axis][triangle], in the mesh's own frame; unused triangles are zero
   uint32_t triangle[size];   ///< its number in the mesh, or `unused`
 
+  /// Left as it is: where millions are made, filling them is what takes time.
+  Cluster() {}
+
   /// Takes the corners over from the mesh and returns the box around them. A triangle with a corner that is not finite
   /// becomes a point, which no ray meets.
   Box fill(const Mesh& mesh);
 };
 
-/// The mesh's triangles, sorted by place; without those that have a corner that is not finite. Runs on all cores.
-std::vector<Cluster> make_clusters(const Mesh& mesh);
+/// Triangles that lie beside each other: what a cluster is filled with.
+struct TriangleGroup {
+  uint32_t triangle[Cluster::size];  ///< numbers in the mesh, then `Cluster::unused`
+  Box box;                           ///< around them, in the mesh's own frame
+};
+
+/// All of the mesh's triangles but those that have a corner that is not finite. Runs on all cores.
+std::vector<TriangleGroup> group_triangles(const Mesh& mesh);
 
 }  // namespace omma
