@@ -1,5 +1,5 @@
 // A visible triangle and a ray as a Surface.
-#include "technique/visible.glsl"
+#include "technique/sight.glsl"
 #include "technique/triangle_record.glsl"
 #include "technique/triangle_surface.glsl"
 #include "shading/output.glsl"
@@ -14,5 +14,8 @@ void main() {
   Triangle t = unpack_triangle(triangle_records, int(seen));
   if (int(t.material) != material_number) discard;
   uint number = texelFetch(visible_triangles, int(seen)).x;
-  write_outputs(surface_of(t, number, camera_ray(gl_FragCoord.xy + pixel_offset)));
+  write_outputs(surface_of(t, number, camera_ray(sight_pixel())));
+#ifdef SAMPLES
+  out_color *= sight_share();
+#endif
 }

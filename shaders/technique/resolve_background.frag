@@ -1,13 +1,12 @@
 // What rays that meet nothing bring.
-#include "technique/visible.glsl"
+#include "technique/sight.glsl"
 #include "common/frame.glsl"
-#include "common/camera.glsl"
 
 layout(location = 0) out vec4 color;
 
 void main() {
   if (visible_at(ivec2(gl_FragCoord.xy)) != NOTHING) discard;
   vec3 direction;
-  bool valid = camera_unproject(gl_FragCoord.xy + pixel_offset, direction);
-  color = vec4(valid ? background(direction) : vec3(0.0), 1.0);
+  bool valid = camera_unproject(sight_pixel(), direction);
+  color = vec4(valid ? background(direction) : vec3(0.0), 1.0) * sight_share();
 }

@@ -8,11 +8,14 @@
 
 namespace omma {
 
-/// The samples of a picture as passes of up to the driver's samples each.
+/// The samples of a picture as passes: each with the driver's samples around one shift, or with a sample at each of
+/// several shifts.
 struct GpuRenderer::Passes {
-  Passes(int samples, bool multisamples, int driver_samples);
-  int samples = 1;  ///< in each pass
+  Passes(int samples, int driver_samples, size_t shifts_at_once);
+  int driver_samples = 1;  ///< in each pass
   std::vector<glm::dvec2> shifts;
+  size_t at_once = 1;  ///< of the shifts, but in the last pass
+  size_t count() const { return (shifts.size() + at_once - 1) / at_once; }
 };
 
 namespace {
@@ -45,19 +48,18 @@ void paste(const Image& tile, const PixelRect& place, Image& whole) {
 
 }  // namespace
 
-GpuRenderer::Passes::Passes(int wanted, bool multisamples, int driver_samples) {
-  if (multisamples) {
-    // Drivers have powers of two.
-    while (samples * 2 <= std::min(wanted, driver_samples)) samples *= 2;
-  }
-  const int count = (wanted + samples - 1) / samples;
+GpuRenderer::Passes::Passes(int wanted, int most_driver_samples, size_t shifts_at_once) {
+  // Drivers have powers of two.
+  while (driver_samples * 2 <= std::min(wanted, most_driver_samples)) driver_samples *= 2;
+  const int shift_count = (wanted + driver_samples - 1) / driver_samples;
   // The driver's own sample positions are spread over the pixel; a pass shifts them within the gap between two.
-  const double gap = 1.0 / std::sqrt(double(samples));
-  for (int i = 0; i < count; ++i) {
+  const double gap = 1.0 / std::sqrt(double(driver_samples));
+  for (int i = 0; i < shift_count; ++i) {
     // On the grid of pieces, where it is decided in whole numbers whose a sample is.
     const glm::dvec2 shift = glm::round(gap * spread_point(i) * double(piece_grid)) / double(piece_grid);
-    shifts.push_back(count == 1 ? glm::dvec2(0.0) : shift);
+    shifts.push_back(shift_count == 1 ? glm::dvec2(0.0) : shift);
   }
+  at_once = std::min(shifts.size(), shifts_at_once);
 }
 
 GpuRenderer::GpuRenderer() {
@@ -111,11 +113,21 @@ double GpuRenderer::timed(const std::function<void()>& draw) {
 Image GpuRenderer::draw_color(Technique& technique, View view, const Passes& passes, bool show_pieces) {
   static constexpr Channel outputs[] = {Channel::color};
   view.outputs = outputs;
-  view.samples = passes.samples;
+  view.samples = passes.driver_samples;
   const Target& picture = target_for(view.size(), outputs);
-  if (passes.shifts.size() == 1) {
+  const std::span<const glm::dvec2> shifts(passes.shifts);
+  const auto draw_pass = [&](std::span<const glm::dvec2> of_pass) {
+    if (of_pass.size() > 1) {
+      view.shifts = of_pass;
+    } else {
+      view.shifts = {};
+      view.shift = of_pass.front();
+    }
     technique.draw(view, picture);
     if (show_pieces) draw_piece_borders(technique, view, picture);
+  };
+  if (passes.count() == 1) {
+    draw_pass(shifts);
     tools_->timer.mark("read back");
     return read_back(picture.image(Channel::color), Channel::color, view.size());
   }
@@ -127,15 +139,14 @@ Image GpuRenderer::draw_color(Technique& technique, View view, const Passes& pas
   glClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 0, zero);
   const gl::Program& add = tools_->programs.get(
       {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "common/accumulate.frag"}}, {});
-  for (const glm::dvec2& shift : passes.shifts) {
-    view.shift = shift;
-    technique.draw(view, picture);
-    if (show_pieces) draw_piece_borders(technique, view, picture);
+  for (size_t first = 0; first < shifts.size(); first += passes.at_once) {
+    const auto of_pass = shifts.subspan(first, std::min(passes.at_once, shifts.size() - first));
+    draw_pass(of_pass);
     tools_->timer.mark("accumulate");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     glBindSampler(0, 0);
     picture.image(Channel::color).bind(0);
-    add.set("weight", 1.0f / float(passes.shifts.size()));
+    add.set("weight", float(of_pass.size()) / float(shifts.size()));
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
     tools_->draw_fullscreen(add);
@@ -184,7 +195,9 @@ std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dm
   const int most = std::min(limits.texture_size, limits.viewport_size);
   const int side = options.tile > 0 ? std::min(options.tile, most) : std::min(most, preferred_tile);
   const std::vector<PixelRect> tiles = tiles_of(camera.size(), side);
-  const Passes passes(options.samples, technique.multisamples(), limits.samples);
+  const ImageSize largest{std::min(side, camera.size().width), std::min(side, camera.size().height)};
+  const Passes passes(options.samples, technique.multisamples() ? limits.samples : 1,
+                      technique.shifts_at_once(largest));
 
   std::map<Channel, Image> pictures;
   for (Channel channel : wanted) pictures.emplace(channel, make_image(channel, camera.size()));
@@ -214,7 +227,7 @@ std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dm
   stats.buffer_bytes = gpu_scene_->bytes() + target_.bytes() + tools_->multisample_target.bytes() +
                        technique.buffer_bytes() + shadow_maps_->bytes() + reflection_maps_->bytes();
   stats.tiles = int(tiles.size());
-  stats.passes = pictures.contains(Channel::color) ? int(passes.shifts.size()) : 0;
+  stats.passes = pictures.contains(Channel::color) ? int(passes.count()) : 0;
   stats.stage_ms = std::move(stages);
   if (options.reflect) stats.stage_ms.insert(stats.stage_ms.begin(), {"reflection maps", reflection_ms});
   if (options.shadows != Shadows::off) stats.stage_ms.insert(stats.stage_ms.begin(), {"shadow maps", shadow_ms});

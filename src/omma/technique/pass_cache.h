@@ -20,8 +20,8 @@ class PassCache {
  public:
   /// `make(camera, tile, shift)` returns a T.
   template <typename Make>
-  const T& get(const View& view, const Make& make) {
-    return cache_.get({view.camera, view.tile, view.shift},
+  const T& get(const View& view, const glm::dvec2& shift, const Make& make) {
+    return cache_.get({view.camera, view.tile, shift},
                       [&](const PassKey& key) { return make(key.camera, key.tile, key.shift); });
   }
 

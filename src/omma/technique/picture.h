@@ -71,7 +71,8 @@ struct RenderStats {
   size_t triangles = 0;   ///< in the scene
   size_t triangles_drawn = 0;                ///< primitives that reached the rasterizer for surfaces, over all passes
   std::optional<uint64_t> fragments_shaded;  ///< for surfaces; nothing where the driver does not count
-  uint64_t samples_kept = 0;                 ///< of those, samples that passed the depth test and were no hole
+  /// Of those, samples that passed the depth test and were no hole; where a resolve pass draws, triangles of pixels.
+  uint64_t samples_kept = 0;
   std::optional<BoundFragments> bound_fragments;  ///< nonlinear, where RenderOptions asks for it
   size_t buffer_bytes = 0;                        ///< geometry, textures, targets, trees; on the GPU or beside it
   size_t pieces = 0;                              ///< piecewise: that make up the image

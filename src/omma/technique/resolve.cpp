@@ -1,5 +1,7 @@
 #include "omma/technique/resolve.h"
 
+#include <algorithm>
+
 #include "omma/base/error.h"
 
 namespace omma {
@@ -13,7 +15,7 @@ size_t record_texels(const gl::Defines& defines) {
 
 }  // namespace
 
-Resolver::Resolver(DrawTools& tools) : tools_(tools), squares_(tools.scene.scene()) {
+Resolver::Resolver(DrawTools& tools) : tools_(tools), squares_(tools.scene.scene()), sheet_(tools) {
   for (const Mesh& mesh : tools.scene.scene().meshes) has_colors_ |= !mesh.colors.empty();
   for (const Material& material : tools.scene.scene().materials) has_tangents_ |= material.normal_texture >= 0;
   glEnableVertexArrayAttrib(squares_array_.id(), 0);
@@ -21,18 +23,59 @@ Resolver::Resolver(DrawTools& tools) : tools_(tools), squares_(tools.scene.scene
   glVertexArrayBindingDivisor(squares_array_.id(), 0, 1);
 }
 
-void Resolver::draw(const View& view, const VisibleTriangles& visible) {
-  set(view, visible);
+size_t Resolver::samples_at_once(ImageSize size) const {
+  // Two numbers of each sample, and as much again where all of them see something else.
+  constexpr size_t most = size_t(1) << 25;
+  const size_t pixels = std::max<size_t>(1, size_t(size.width) * size_t(size.height));
+  const size_t fitting = std::min(most, size_t(tools_.context.limits().buffer_texels)) / pixels;
+  return std::clamp<size_t>(fitting, 1, SampleFragments::most_samples);
+}
+
+void Resolver::draw(const View& view, const Target& target, std::vector<VisibleTriangles> samples) {
+  target.begin();
+  if (samples.size() > 1) return draw_samples(view, target, std::move(samples));
+  set(view, samples.front());
+  const Canvas canvas{view.size(), squares_.squares()};
   // A pixel without a ray is black; labels were cleared to nothing.
-  if (!view.labels()) draw_background(view);
-  draw_surfaces(view);
+  if (!view.labels()) {
+    if (view.camera.pieces() != nullptr) {
+      tools_.draw_background(view);
+    } else {
+      clear_to_black();
+      draw_background(view, canvas);
+    }
+  }
+  draw_surfaces(view, canvas);
+}
+
+void Resolver::draw_samples(const View& view, const Target& target, std::vector<VisibleTriangles> samples) {
+  const SampleFragments fragments(std::move(samples), view.shifts);
+  for (const auto& fragment : fragments.further) {
+    if (fragment.hit.x != VisibleTriangles::nothing) squares_.see(fragment.hit.x);
+  }
+  set(view, fragments.first);
+  coverage_.write(std::span<const SampleCoverage>(fragments.first_coverage));
+  coverage_.bind(17);
+  clear_to_black();
+  const Canvas picture{view.size(), squares_.squares(), {{"SAMPLES", ""}}};
+  draw_background(view, picture);
+  draw_surfaces(view, picture);
+  if (fragments.further.empty()) return;
+
+  sheet_.lay_out(view, fragments.further, squares_);
+  sheet_.begin();
+  const Canvas sheet{sheet_.size(), sheet_.squares(), {{"SAMPLES", ""}, {"ON_SHEET", ""}}};
+  draw_background(view, sheet);
+  draw_surfaces(view, sheet);
+  target.bind();
+  sheet_.add_to_target(view);
 }
 
 void Resolver::draw_over(const View& view, const VisibleTriangles& visible) {
   set(view, visible);
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  draw_surfaces(view);
+  draw_surfaces(view, {view.size(), squares_.squares()});
   glDisable(GL_BLEND);
 }
 
@@ -80,11 +123,17 @@ void Resolver::set(const View& view, const VisibleTriangles& visible) {
   glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
 }
 
-void Resolver::draw_squares(const gl::Program& program, const View& view, const std::vector<glm::uvec2>& squares) {
+void Resolver::draw_squares(const gl::Program& program, const View& view, const Canvas& canvas,
+                            const std::vector<glm::uvec2>& squares) {
   program.use();
   set_camera(program, view);
-  program.set("visible_width", view.size().width);
-  program.set("target_size", glm::vec2(view.size().width, view.size().height));
+  program.set("visible_width", canvas.size.width);
+  program.set("target_size", glm::vec2(canvas.size.width, canvas.size.height));
+  if (!view.shifts.empty()) {
+    const std::vector<glm::vec2> shifts(view.shifts.begin(), view.shifts.end());
+    program.set("sample_shifts", std::span<const glm::vec2>(shifts));
+    program.set("sample_share", 1.0f / float(shifts.size()));
+  }
   program.set("side", float(VisibleSquares::side));
   const gl::Buffer buffer{std::span<const glm::uvec2>(squares)};
   glVertexArrayVertexBuffer(squares_array_.id(), 0, buffer.id(), 0, sizeof(glm::uvec2));
@@ -92,23 +141,28 @@ void Resolver::draw_squares(const gl::Program& program, const View& view, const 
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(squares.size()));
 }
 
-void Resolver::draw_background(const View& view) {
-  if (view.camera.pieces() != nullptr) return tools_.draw_background(view);
+void Resolver::clear_to_black() {
   const GLfloat black[4] = {0.0f, 0.0f, 0.0f, 1.0f};
   glClearBufferfv(GL_COLOR, 0, black);
-  const auto found = squares_.squares().find(VisibleSquares::background);
-  if (found == squares_.squares().end()) return;
-  draw_squares(tools_.programs.get({{GL_VERTEX_SHADER, "technique/material_tile.vert"},
-                                    {GL_FRAGMENT_SHADER, "technique/resolve_background.frag"}},
-                                   camera_defines(view.camera)),
-               view, found->second);
 }
 
-void Resolver::draw_surfaces(const View& view) {
+void Resolver::draw_background(const View& view, const Canvas& canvas) {
+  const auto found = canvas.squares.find(VisibleSquares::background);
+  if (found == canvas.squares.end()) return;
+  gl::Defines defines = camera_defines(view.camera);
+  defines.insert(canvas.defines.begin(), canvas.defines.end());
+  draw_squares(tools_.programs.get({{GL_VERTEX_SHADER, "technique/material_tile.vert"},
+                                    {GL_FRAGMENT_SHADER, "technique/resolve_background.frag"}},
+                                   defines),
+               view, canvas, found->second);
+}
+
+void Resolver::draw_surfaces(const View& view, const Canvas& canvas) {
   tools_.counters.begin();
-  for (const auto& [material, squares] : squares_.squares()) {
+  for (const auto& [material, squares] : canvas.squares) {
     if (material == VisibleSquares::background) continue;
     gl::Defines defines = camera_defines(view.camera);
+    defines.insert(canvas.defines.begin(), canvas.defines.end());
     defines.merge(record_defines(view));
     defines.merge(tools_.surface_defines(view, material));
     const gl::Program& program = tools_.programs.get(
@@ -116,7 +170,7 @@ void Resolver::draw_surfaces(const View& view) {
     set_effects(program, view.effects);
     program.set("material_number", material);
     tools_.scene.materials().bind(material, view.anisotropic());
-    draw_squares(program, view, squares);
+    draw_squares(program, view, canvas, squares);
   }
   tools_.counters.end();
 }

@@ -2,8 +2,8 @@
 // of who found them.
 #pragma once
 
+#include "omma/technique/fragment_sheet.h"
 #include "omma/technique/technique.h"
-#include "omma/technique/visible_squares.h"
 #include "omma/visibility/ray_hit.h"
 
 namespace omma {
@@ -12,28 +12,44 @@ class Resolver {
  public:
   explicit Resolver(DrawTools& tools);
 
-  /// The whole picture into the bound target of the view's size, the background included.
-  void draw(const View& view, const VisibleTriangles& visible);
+  /// How many samples of a pixel `draw` takes of so large a picture: what is kept of each is bounded.
+  size_t samples_at_once(ImageSize size) const;
+
+  /// The whole picture, the background included; `target` is of the view's size and stays bound. Of the view's shifts,
+  /// what each sees. Several are shaded once for each triangle of a pixel, in proportion to how many see it.
+  void draw(const View& view, const Target& target, std::vector<VisibleTriangles> samples);
   /// Lays surfaces over what is there by their coverage.
   void draw_over(const View& view, const VisibleTriangles& visible);
   /// The blended surfaces of each pixel, nearest first, over what is there.
   void draw_layers(const View& view, const std::vector<std::vector<RayHit>>& surfaces);
 
-  size_t bytes() const { return pixels_.bytes() + triangles_.bytes() + records_.bytes(); }
+  size_t bytes() const {
+    return pixels_.bytes() + coverage_.bytes() + triangles_.bytes() + records_.bytes() + sheet_.bytes();
+  }
 
  private:
+  /// An image to draw to, or the sheet of further fragments.
+  struct Canvas {
+    ImageSize size;
+    const std::map<int, std::vector<glm::uvec2>>& squares;  ///< by material
+    gl::Defines defines{};                                  ///< of shaders/technique/sight.glsl
+  };
   /// Hands the visible triangles to the GPU and computes what is constant over each of them.
   void set(const View& view, const VisibleTriangles& visible);
-  void draw_background(const View& view);
-  void draw_surfaces(const View& view);
+  void draw_samples(const View& view, const Target& target, std::vector<VisibleTriangles> samples);
+  void clear_to_black();
+  void draw_background(const View& view, const Canvas& canvas);
+  void draw_surfaces(const View& view, const Canvas& canvas);
   /// `squares` with a program of technique/material_tile.vert.
-  void draw_squares(const gl::Program& program, const View& view, const std::vector<glm::uvec2>& squares);
+  void draw_squares(const gl::Program& program, const View& view, const Canvas& canvas,
+                    const std::vector<glm::uvec2>& squares);
   gl::Defines record_defines(const View& view) const;
 
   DrawTools& tools_;
   VisibleSquares squares_;
   bool has_colors_ = false, has_tangents_ = false;
-  gl::Texels pixels_{GL_R32UI}, triangles_{GL_RG32UI}, records_{GL_RGBA32F};
+  gl::Texels pixels_{GL_R32UI}, coverage_{GL_RG8UI}, triangles_{GL_RG32UI}, records_{GL_RGBA32F};
+  FragmentSheet sheet_;
   gl::VertexArray squares_array_ = gl::create_vertex_array();
 };
 

@@ -100,9 +100,13 @@ void clear_outputs(GLuint framebuffer, std::span<const Channel> outputs) {
   glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_depth);
 }
 
-void Target::begin() const {
+void Target::bind() const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer());
   glViewport(0, 0, size_.width, size_.height);
+}
+
+void Target::begin() const {
+  bind();
   clear_outputs(framebuffer(), outputs_);
 }
 

@@ -32,7 +32,9 @@ class Target {
   /// Only this channel is drawn to, as the program's first output, until draw_all.
   void draw_only(Channel channel) const;
   void draw_all() const;
-  /// Binds the framebuffer with every attachment, sets the viewport, clears every channel to nothing and depth to far.
+  /// Binds the framebuffer and sets the viewport.
+  void bind() const;
+  /// Binds, and clears every channel to nothing and depth to far.
   void begin() const;
   /// Copies a multisample colour image, averaged, into `destination` of the same size.
   void resolve_color(const Target& destination) const;

@@ -56,6 +56,9 @@ class Technique {
   /// True when a colour pass may have as many samples per pixel as the driver has; false when it has one.
   virtual bool multisamples() const = 0;
 
+  /// How many samples of a pixel, anywhere in it, a colour pass over so large a tile takes by itself (View::shifts).
+  virtual size_t shifts_at_once(ImageSize) const { return 1; }
+
   /// True when it draws a view without outputs: the target's depth alone, near_depth over distance, or, for flat
   /// cameras, over distance ahead. Where the camera has no ray such a depth says nothing.
   virtual bool draws_depth() const { return false; }

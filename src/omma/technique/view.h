@@ -14,11 +14,12 @@ namespace omma {
 struct View {
   const Camera& camera;
   glm::dmat4 worldFromCamera;
-  PixelRect tile;                      ///< of the camera's image
-  glm::dvec2 shift{0.0};               ///< where in its pixel this pass samples, from the centre, pixels
-  std::span<const Channel> outputs{};  ///< {color}, channels other than color, or none: depth
-  int samples = 1;                     ///< per pixel in this pass, as far as the technique multisamples
-  std::span<const Effect> effects{};   ///< on color
+  PixelRect tile;                        ///< of the camera's image
+  glm::dvec2 shift{0.0};                 ///< where in its pixel this pass samples, from the centre, pixels
+  std::span<const glm::dvec2> shifts{};  ///< instead, where this pass takes several samples; none of labels
+  std::span<const Channel> outputs{};    ///< {color}, channels other than color, or none: depth
+  int samples = 1;                       ///< per pixel in this pass, as far as the technique multisamples
+  std::span<const Effect> effects{};     ///< on color
   Filter filter = Filter::anisotropic;
   int face_size = 0;
   PieceOptions pieces{};
@@ -27,6 +28,10 @@ struct View {
   BoundFragments* bound_fragments = nullptr;  ///< added to where they are to be counted
 
   bool labels() const { return outputs.empty() || outputs.front() != Channel::color; }
+  /// Where in its pixel this pass samples, all of it.
+  std::span<const glm::dvec2> all_shifts() const {
+    return shifts.empty() ? std::span<const glm::dvec2>(&shift, 1) : shifts;
+  }
   bool anisotropic() const { return filter == Filter::anisotropic; }
   ImageSize size() const { return {tile.width(), tile.height()}; }
   /// What is added to gl_FragCoord to get a pixel of the image.

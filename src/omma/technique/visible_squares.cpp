@@ -25,11 +25,9 @@ void VisibleSquares::sort(const VisibleTriangles& visible, std::span<uint32_t> p
         const glm::uvec2* hits = row_of(y);
         for (int x = column * side; x < std::min((column + 1) * side, width); ++x) {
           if (hits[x] == last) continue;
-          if (hits[x].x != VisibleTriangles::nothing) seen_[hits[x].x].store(true, std::memory_order_relaxed);
+          if (hits[x].x != VisibleTriangles::nothing) see(hits[x].x);
           if (hits[x].y != last.y && hits[x].y != VisibleTriangles::no_ray) {
-            materials.push_back(hits[x].y == VisibleTriangles::nothing
-                                    ? background
-                                    : scene_.meshes[size_t(scene_.instances[hits[x].y].mesh)].material);
+            materials.push_back(material_of(hits[x].y));
           }
           last = hits[x];
         }

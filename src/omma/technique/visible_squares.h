@@ -33,12 +33,21 @@ class VisibleSquares {
 
   explicit VisibleSquares(const Scene& scene);
 
+  /// Of what is sorted next, beside what the pixels see: it shall have a place in triangles() too. From any thread.
+  void see(uint32_t triangle) { seen_[triangle].store(true, std::memory_order_relaxed); }
   /// `places` receives each pixel's place in triangles(), or VisibleTriangles::nothing. Runs on all cores; the result
   /// depends on the picture alone.
   void sort(const VisibleTriangles& visible, std::span<uint32_t> places);
 
   /// Each visible triangle once, by its id: x is that, y the instance.
   const std::vector<glm::uvec2>& triangles() const { return triangles_; }
+  /// Of a triangle that is seen, in triangles().
+  uint32_t place_of(uint32_t triangle) const { return place_[triangle]; }
+  /// Of an instance; `background` of none.
+  int material_of(uint32_t instance) const {
+    return instance == VisibleTriangles::nothing ? background
+                                                 : scene_.meshes[size_t(scene_.instances[instance].mesh)].material;
+  }
   /// By material, in squares from the top left; the background where it is seen.
   const std::map<int, std::vector<glm::uvec2>>& squares() const { return squares_; }
 

@@ -16,28 +16,34 @@ class Raycast : public Technique {
  public:
   explicit Raycast(DrawTools& tools) : tools_(tools), trees_(tools.scene.scene()), resolver_(tools) {}
   bool multisamples() const override { return false; }
+  size_t shifts_at_once(ImageSize size) const override {
+    return trees_.has_blending() ? 1 : resolver_.samples_at_once(size);
+  }
   void scene_changed() override { trees_.update(); }
   size_t buffer_bytes() const override { return resolver_.bytes(); }
 
   void draw(const View& view, const Target& target) override {
     tools_.timer.mark("trace");
-    const RayMap& rays = rays_.get(view, make_rays);
-    const std::span<const glm::vec3> at_centre;
-    std::vector<RayHit> hits(rays.directions.size());
     trees_.set_view(view.worldFromCamera);
-    trees_.nearest(at_centre, rays.directions, rays.size.width, view.labels() ? Solid::labels : Solid::opaque, hits);
-    VisibleTriangles visible{rays.size, {}};
-    visible.hits.reserve(hits.size());
-    for (size_t i = 0; i < hits.size(); ++i) {
-      const bool has_ray = rays.directions[i] != glm::vec3(0.0f);
-      visible.hits.emplace_back(hits[i].triangle, has_ray ? hits[i].instance : VisibleTriangles::no_ray);
+    const std::span<const glm::vec3> at_centre;
+    std::vector<RayHit> hits(size_t(view.size().width) * size_t(view.size().height));
+    std::vector<VisibleTriangles> samples;
+    for (const glm::dvec2& shift : view.all_shifts()) {
+      const RayMap& rays = rays_.get(view, shift, make_rays);
+      trees_.nearest(at_centre, rays.directions, rays.size.width, view.labels() ? Solid::labels : Solid::opaque, hits);
+      VisibleTriangles& visible = samples.emplace_back(VisibleTriangles{rays.size, {}});
+      visible.hits.reserve(hits.size());
+      for (size_t i = 0; i < hits.size(); ++i) {
+        const bool has_ray = rays.directions[i] != glm::vec3(0.0f);
+        visible.hits.emplace_back(hits[i].triangle, has_ray ? hits[i].instance : VisibleTriangles::no_ray);
+      }
     }
 
     tools_.timer.mark("resolve");
-    target.begin();
-    resolver_.draw(view, visible);
+    resolver_.draw(view, target, std::move(samples));
     if (!view.labels() && trees_.has_blending()) {
       tools_.timer.mark("blend");
+      const RayMap& rays = rays_.get(view, view.shift, make_rays);
       resolver_.draw_layers(view, trees_.blended(at_centre, rays.directions, hits));
     }
   }

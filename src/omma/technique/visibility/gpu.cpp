@@ -11,26 +11,31 @@ class GpuVisibility : public Technique {
  public:
   explicit GpuVisibility(DrawTools& tools) : tools_(tools), finder_(tools), resolver_(tools) {}
   bool multisamples() const override { return false; }
+  size_t shifts_at_once(ImageSize size) const override {
+    return finder_.has_blending() ? 1 : resolver_.samples_at_once(size);
+  }
   void scene_changed() override {
     tools_.timer.mark("refit");
     finder_.update();
   }
 
   void draw(const View& view, const Target& target) override {
-    tools_.timer.mark("ray tree");
-    const GpuRays& rays = rays_.get(view, [this](const Camera& camera, const PixelRect& tile, const glm::dvec2& shift) {
-      return GpuRays(RayTree(rays_of(camera, tile, shift)), tools_.context.limits());
-    });
     tools_.timer.mark("place");
     finder_.set_view(view.worldFromCamera);
-    tools_.timer.mark("find");
-    const VisibleTriangles visible = finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque);
+    std::vector<VisibleTriangles> samples;
     std::vector<std::vector<RayHit>> layers;
-    if (!view.labels() && finder_.has_blending()) layers = finder_.blended(rays);
+    for (const glm::dvec2& shift : view.all_shifts()) {
+      tools_.timer.mark("ray tree");
+      const GpuRays& rays = rays_.get(view, shift, [this](const Camera& camera, const PixelRect& tile, glm::dvec2 at) {
+        return GpuRays(RayTree(rays_of(camera, tile, at)), tools_.context.limits());
+      });
+      tools_.timer.mark("find");
+      samples.push_back(finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque));
+      if (!view.labels() && finder_.has_blending()) layers = finder_.blended(rays);
+    }
 
     tools_.timer.mark("resolve");
-    target.begin();
-    resolver_.draw(view, visible);
+    resolver_.draw(view, target, std::move(samples));
     if (!layers.empty()) {
       tools_.timer.mark("blend");
       resolver_.draw_layers(view, layers);

@@ -16,28 +16,35 @@ class Visibility : public Technique {
  public:
   explicit Visibility(DrawTools& tools) : tools_(tools), finder_(tools.scene.scene()), resolver_(tools) {}
   bool multisamples() const override { return false; }
+  size_t shifts_at_once(ImageSize size) const override {
+    return finder_.has_blending() ? 1 : resolver_.samples_at_once(size);
+  }
   void scene_changed() override {
     tools_.timer.mark("refit");
     finder_.update();
   }
 
   void draw(const View& view, const Target& target) override {
-    tools_.timer.mark("ray tree");
-    const RayTree& rays = rays_.get(view, make_tree);
     tools_.timer.mark("find");
     finder_.set_view(view.worldFromCamera);
-    VisibleTriangles visible{view.size(), {}};
-    visible.hits.resize(size_t(view.size().width) * size_t(view.size().height));
+    const size_t pixels = size_t(view.size().width) * size_t(view.size().height);
     const bool layered = !view.labels() && finder_.has_blending();
-    std::vector<float> distances(layered ? visible.hits.size() : 0);
-    finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque, visible.hits, distances);
+    std::vector<float> distances(layered ? pixels : 0);
+    std::vector<VisibleTriangles> samples;
+    for (const glm::dvec2& shift : view.all_shifts()) {
+      tools_.timer.mark("ray tree");
+      const RayTree& rays = rays_.get(view, shift, make_tree);
+      tools_.timer.mark("find");
+      VisibleTriangles& visible = samples.emplace_back(VisibleTriangles{view.size(), {}});
+      visible.hits.resize(pixels);
+      finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque, visible.hits, distances);
+    }
 
     tools_.timer.mark("resolve");
-    target.begin();
-    resolver_.draw(view, visible);
+    resolver_.draw(view, target, std::move(samples));
     if (layered) {
       tools_.timer.mark("blend");
-      resolver_.draw_layers(view, finder_.blended(rays, distances));
+      resolver_.draw_layers(view, finder_.blended(rays_.get(view, view.shift, make_tree), distances));
     }
   }
 
