@@ -17,6 +17,7 @@
 #include <hwy/cache_control.h>
 
 #include "omma/scene/coverage.h"
+#include "omma/visibility/block_sight-inl.h"
 #include "omma/visibility/find_blocks.h"
 #include "omma/visibility/turned_cluster-inl.h"
 
@@ -49,6 +50,7 @@ class BlockFinder {
     origins_ = origins;
     picture_ = &picture;
     layers_ = &layers;
+    sight_.forget();
     const BoxTree& top = query_.scene->top();
     for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
       if (!query_.collect) clear(leaf);
@@ -91,13 +93,11 @@ class BlockFinder {
 
   /// Those that the block may see, the farthest first.
   HWY_INLINE void push_children(const BoxNode& node, const PlacedBody& body) {
-    const Cone& cone = block_->cone;
+    if (!sight_.is_for(body)) sight_.look(*block_, body, apex_of<has_origins>(body, origins_));
     alignas(64) float near[16];
     Floats near_v;
-    const Mask meets = may_meet({load(node.centre[0]), load(node.centre[1]), load(node.centre[2])},
-                                {load(node.half[0]), load(node.half[1]), load(node.half[2])},
-                                all(cone.axis.x, cone.axis.y, cone.axis.z), all(cone.sin), all(cone.cos), body,
-                                apex_of<has_origins>(body, origins_), near_v);
+    const Mask meets = sight_.may_meet({load(node.centre[0]), load(node.centre[1]), load(node.centre[2])},
+                                       {load(node.half[0]), load(node.half[1]), load(node.half[2])}, near_v);
     const Mask before = near_v * all(farthest_of_block_) <= all(1.0f + slack);
     uint32_t left = bits(meets & before) & ((1u << node.count) - 1u);
     store(near_v, near);
@@ -154,13 +154,14 @@ class BlockFinder {
 
   void visit_triangles(uint32_t triangles, uint32_t leaves, const PlacedBody& body, const PlacedPart& part,
                        const Cluster& cluster) {
-    if (triangles == 0) return;
-    // Whichever are fewer, one after another against sixteen of the others.
-    if (std::popcount(triangles) <= std::popcount(leaves)) {
-      const Vectors axis{load(block_->axis_x), load(block_->axis_y), load(block_->axis_z)};
-      const Floats sin = load(block_->sin);
-      for (; triangles != 0; triangles &= triangles - 1) {
-        const int t = std::countr_zero(triangles);
+    const Vectors axis{load(block_->axis_x), load(block_->axis_y), load(block_->axis_z)};
+    const Floats sin = load(block_->sin);
+    for (; triangles != 0; triangles &= triangles - 1) {
+      const int t = std::countr_zero(triangles);
+      uint32_t left = leaves;
+      if constexpr (!has_origins) left &= turned_.pixels.leaves(t);
+      if (left == 0) continue;
+      if ((left & (left - 1)) != 0) {
         Mask kept = turned_near(t, axis, sin);
         for (int i = 0; i < 3; ++i) {
           const Vectors plane = all(turned_.edge[i][0][t], turned_.edge[i][1][t], turned_.edge[i][2][t]);
@@ -168,32 +169,9 @@ class BlockFinder {
           if constexpr (has_origins) most = most + all(turned_.apart.edge_room[i][t]);
           kept = kept & (most >= all(0.0f));
         }
-        for (uint32_t left = bits(kept) & leaves; left != 0; left &= left - 1) {
-          visit_leaf(std::countr_zero(left), t, body, part, cluster);
-        }
+        left &= bits(kept);
       }
-      return;
-    }
-    for (; leaves != 0; leaves &= leaves - 1) {
-      const int leaf = std::countr_zero(leaves);
-      const Cone cone = block_->leaf_cone(leaf);
-      const Vectors axis = all(cone.axis.x, cone.axis.y, cone.axis.z);
-      const Floats sin = all(cone.sin);
-      Floats nearest =
-          mul_add(load(turned_.depth_length), sin,
-                  abs(dot({load(turned_.depth[0]), load(turned_.depth[1]), load(turned_.depth[2])}, axis)));
-      if constexpr (has_origins) nearest = nearest * load(turned_.apart.nearer);
-      Mask kept = (nearest * all(1.0f + slack)) >= all(farthest_[leaf]);
-      kept = kept | from_bits(turned_.by_weights);
-      for (int i = 0; i < 3; ++i) {
-        const Vectors plane{load(turned_.edge[i][0]), load(turned_.edge[i][1]), load(turned_.edge[i][2])};
-        Floats most = mul_add(load(turned_.edge_length[i]), sin, dot(plane, axis));
-        if constexpr (has_origins) most = most + load(turned_.apart.edge_room[i]);
-        kept = kept & (most >= all(0.0f));
-      }
-      for (uint32_t left = bits(kept) & triangles; left != 0; left &= left - 1) {
-        visit_leaf(leaf, std::countr_zero(left), body, part, cluster);
-      }
+      for (; left != 0; left &= left - 1) visit_leaf(std::countr_zero(left), t, body, part, cluster);
     }
   }
 
@@ -305,6 +283,7 @@ class BlockFinder {
   std::vector<BlockLayer>* layers_ = nullptr;
   std::vector<Pending> pending_;
   size_t count_ = 0;
+  BlockSight sight_;
   TurnedCluster<has_origins> turned_;
   alignas(64) float farthest_[16] = {};  ///< inverse distance of the farthest thing that a leaf's rays see
   float farthest_of_block_ = 0.0f;

@@ -76,6 +76,7 @@ void PlacedScene::set_view(const glm::dmat4& worldFromCamera) {
   top_frame_ = {};
   top_frame_.nodes = top_.nodes.data();
   top_frame_.scale = float(scale_for(reach));
+  top_frame_.pad = float(2e-6 * reach) * top_frame_.scale;
   for (glm::vec3& column : top_frame_.columns) column *= top_frame_.scale;
 }
 

@@ -82,6 +82,7 @@ bool fill(const RayMap& rays, RayBlock& block) {
     each_ray(block, leaf, [&](const glm::vec3& d) { whole.widen(d); });
   }
   block.cone = whole.cone();
+  block.grid = fit_pixel_grid(block);
   return true;
 }
 

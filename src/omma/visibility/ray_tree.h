@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "omma/camera/camera.h"
+#include "omma/visibility/pixel_grid.h"
 
 namespace omma {
 
@@ -26,7 +27,8 @@ struct alignas(64) RayBlock {
   float x[leaves][16], y[leaves][16], z[leaves][16];  ///< directions in the camera frame; zero for no ray
   float axis_x[leaves], axis_y[leaves], axis_z[leaves], sin[leaves], cos[leaves];  ///< the leaves' cones
   Cone cone;                                                                       ///< of all rays
-  uint32_t leaf_mask;                                                              ///< leaves that have a ray
+  PixelGrid grid;
+  uint32_t leaf_mask;     ///< leaves that have a ray
   uint16_t rays[leaves];  ///< of each leaf: those that are rays
   int pixel_x, pixel_y;   ///< of the first ray
 

@@ -62,6 +62,9 @@ OMMA_BINARY(max, Max)
     return r;                                                             \
   }
 OMMA_UNARY(abs, Abs)
+OMMA_UNARY(ceil, Ceil)
+OMMA_UNARY(floor, Floor)
+OMMA_UNARY(sqrt, Sqrt)
 OMMA_UNARY(rough_inverse_sqrt, ApproximateReciprocalSqrt)
 #undef OMMA_UNARY
 

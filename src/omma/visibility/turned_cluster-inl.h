@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "omma/visibility/box_in_cone-inl.h"
+#include "omma/visibility/pixel_bounds-inl.h"
 #include "omma/visibility/ray_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -45,6 +46,7 @@ struct alignas(64) TurnedCluster {
   float corner[3][3][16];
   uint32_t by_weights = 0;  ///< triangles whose distance comes from their corners: they are seen edge-on
   std::conditional_t<has_origins, TurnedForOrigins, std::monostate> apart;
+  PixelBounds pixels;
 
   /// Returns the triangles that the block may see: from the part's front, or, where both sides are seen, from where the
   /// camera is.
@@ -71,15 +73,21 @@ struct alignas(64) TurnedCluster {
     const Vectors normal = cross(ab, ac);
     const Floats volume = dot(normal, nearest);
     // The squares of what rounding may make of the volume.
-    const Floats doubt = dot(ab, ab) * dot(ac, ac) * dot(nearest, nearest) * all(edge_on * edge_on);
+    const Floats spread = dot(ab, ab) * dot(ac, ac) * dot(nearest, nearest);
     const Floats zero = all(0.0f);
-    Mask unsure = volume * volume <= doubt;
+    Mask unsure = volume * volume <= spread * all(edge_on * edge_on);
     const float radius = has_origins ? origins->radius * body.scale : 0.0f;
     // Twice the radius: where the apex is nearer to the plane, distances from beside it would lose digits.
     if constexpr (has_origins) unsure = unsure | (volume * volume <= dot(normal, normal) * all(4.1f * radius * radius));
     const Floats side = front == 0.0f ? volume : all(front);
     Mask kept = abs(normal.x) + abs(normal.y) + abs(normal.z) > zero;
     if (front != 0.0f) kept = kept & ((volume * side > zero) | unsure);
+
+    if constexpr (!has_origins) {
+      const Floats slant = sqrt(spread) / abs(volume);
+      kept = kept & pixels.find(block.grid, vertex, max(max(square[0], square[1]), square[2]), slant);
+      if (bits(kept) == 0) return 0;
+    }
 
     const Cone& cone = block.cone;
     const Vectors axis = all(cone.axis.x, cone.axis.y, cone.axis.z);
