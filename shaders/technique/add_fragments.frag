@@ -3,7 +3,6 @@ layout(binding = 0) uniform sampler2D sheet;
 layout(binding = 17) uniform usamplerBuffer positions;  // on the sheet, pixel by pixel
 layout(binding = 18) uniform usamplerBuffer runs;       // by pixel: the first of its positions, and in four bits how many
 uniform int visible_width;
-uniform int sheet_width;
 layout(location = 0) out vec4 color;
 
 void main() {
@@ -11,7 +10,6 @@ void main() {
   if (run == 0u) discard;
   color = vec4(0.0);
   for (uint i = run >> 4; i < (run >> 4) + (run & 15u); ++i) {
-    int position = int(texelFetch(positions, int(i)).x);
-    color += texelFetch(sheet, ivec2(position % sheet_width, position / sheet_width), 0);
+    color += texelFetch(sheet, ivec2(texelFetch(positions, int(i)).xy), 0);
   }
 }

@@ -35,11 +35,14 @@ TEST(SampleFragments, HoldEverySampleWithARayOnce) {
   std::uniform_real_distribution<double> within(-0.5, 0.5);
   const ImageSize size{37, 23};
   size_t several = 0;
-  for (size_t count = 1; count <= SampleFragments::most_samples; ++count) {
+  SampleFragments fragments;
+  for (size_t count = 2; count <= SampleFragments::most_samples; ++count) {
     std::vector<glm::dvec2> shifts;
     for (size_t s = 0; s < count; ++s) shifts.emplace_back(within(random), within(random));
     const std::vector<VisibleTriangles> samples = random_samples(count, size, random);
-    const SampleFragments fragments(samples, shifts);
+    fragments.clear();
+    for (VisibleTriangles sample : samples) fragments.add(sample);
+    fragments.finish(shifts);
     size_t next = 0;
     for (int i = 0; i < size.width * size.height; ++i) {
       std::map<Hit, std::vector<size_t>> seen;
@@ -61,20 +64,20 @@ TEST(SampleFragments, HoldEverySampleWithARayOnce) {
         seen.erase(found);
       };
       if (seen.empty()) {
-        EXPECT_EQ(fragments.first_coverage[size_t(i)].count, 0);
-        EXPECT_EQ(fragments.first.hits[size_t(i)].x, VisibleTriangles::nothing);
+        EXPECT_EQ(fragments.first_coverage()[size_t(i)].count, 0);
+        EXPECT_EQ(fragments.first().hits[size_t(i)].x, VisibleTriangles::nothing);
         continue;
       }
-      take(fragments.first.hits[size_t(i)], fragments.first_coverage[size_t(i)]);
+      take(fragments.first().hits[size_t(i)], fragments.first_coverage()[size_t(i)]);
       several += !seen.empty();
       while (!seen.empty()) {
-        ASSERT_LT(next, fragments.further.size());
-        const SampleFragments::Fragment& fragment = fragments.further[next++];
+        ASSERT_LT(next, fragments.further().size());
+        const SampleFragments::Fragment& fragment = fragments.further()[next++];
         ASSERT_EQ(fragment.pixel, glm::u16vec2(i % size.width, i / size.width));
         take(fragment.hit, fragment.coverage);
       }
     }
-    EXPECT_EQ(next, fragments.further.size());
+    EXPECT_EQ(next, fragments.further().size());
   }
   EXPECT_GT(several, 1000u);
 }

@@ -10,7 +10,7 @@ static_assert(SampleFragments::most_samples <= 1u << run_bits);
 
 }  // namespace
 
-void FragmentSheet::lay_out(const View& view, const std::vector<SampleFragments::Fragment>& fragments,
+void FragmentSheet::lay_out(ImageSize picture, const std::vector<SampleFragments::Fragment>& fragments,
                             const VisibleSquares& squares) {
   std::map<int, uint32_t> counts;
   const auto material_of = [&](const SampleFragments::Fragment& fragment) {
@@ -40,8 +40,11 @@ void FragmentSheet::lay_out(const View& view, const std::vector<SampleFragments:
   std::vector<uint32_t> places(area, VisibleTriangles::nothing);
   std::vector<SampleCoverage> coverage(area);
   std::vector<glm::u16vec2> pixels(area);
-  std::vector<uint32_t> positions, runs(size_t(view.size().width) * size_t(view.size().height), 0);
+  std::vector<uint32_t> runs(size_t(picture.width) * size_t(picture.height), 0);
+  std::vector<glm::u16vec2> positions;
   positions.reserve(fragments.size());
+  const auto squares_across = size_t(picture.width + side - 1) / side;
+  std::vector<bool> touched(squares_across * (size_t(picture.height + side - 1) / side), false);
   for (const auto& fragment : fragments) {
     uint32_t& at = next[material_of(fragment)];
     const uint32_t square = at / in_square, within = at % in_square;
@@ -52,15 +55,20 @@ void FragmentSheet::lay_out(const View& view, const std::vector<SampleFragments:
     places[position] = is_triangle ? squares.place_of(fragment.hit.x) : VisibleTriangles::nothing;
     coverage[position] = fragment.coverage;
     pixels[position] = fragment.pixel;
-    uint32_t& run = runs[size_t(fragment.pixel.y) * size_t(view.size().width) + fragment.pixel.x];
+    uint32_t& run = runs[size_t(fragment.pixel.y) * size_t(picture.width) + fragment.pixel.x];
     if (run == 0) run = uint32_t(positions.size()) << run_bits;
     ++run;
-    positions.push_back(position);
+    positions.emplace_back(x, y);
+    touched[fragment.pixel.y / side * squares_across + fragment.pixel.x / side] = true;
+  }
+  picture_squares_.clear();
+  for (size_t i = 0; i < touched.size(); ++i) {
+    if (touched[i]) picture_squares_.emplace_back(i % squares_across, i / squares_across);
   }
   places_.write(std::span<const uint32_t>(places));
   coverage_.write(std::span<const SampleCoverage>(coverage));
   pixels_.write(std::span<const glm::u16vec2>(pixels));
-  positions_.write(std::span<const uint32_t>(positions));
+  positions_.write(std::span<const glm::u16vec2>(positions));
   runs_.write(std::span<const uint32_t>(runs));
 }
 
@@ -72,19 +80,11 @@ void FragmentSheet::begin() const {
   pixels_.bind(18);
 }
 
-void FragmentSheet::add_to_target(const View& view) {
+void FragmentSheet::bind() const {
   glBindSampler(0, 0);
   colors_.bind(0);
   positions_.bind(17);
   runs_.bind(18);
-  const gl::Program& add = tools_.programs.get(
-      {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "technique/add_fragments.frag"}}, {});
-  add.set("visible_width", view.size().width);
-  add.set("sheet_width", width);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE);
-  tools_.draw_fullscreen(add);
-  glDisable(GL_BLEND);
 }
 
 size_t FragmentSheet::bytes() const {

@@ -15,7 +15,7 @@ size_t record_texels(const gl::Defines& defines) {
 
 }  // namespace
 
-Resolver::Resolver(DrawTools& tools) : tools_(tools), squares_(tools.scene.scene()), sheet_(tools) {
+Resolver::Resolver(DrawTools& tools) : tools_(tools), squares_(tools.scene.scene()) {
   for (const Mesh& mesh : tools.scene.scene().meshes) has_colors_ |= !mesh.colors.empty();
   for (const Material& material : tools.scene.scene().materials) has_tangents_ |= material.normal_texture >= 0;
   glEnableVertexArrayAttrib(squares_array_.id(), 0);
@@ -31,10 +31,18 @@ size_t Resolver::samples_at_once(ImageSize size) const {
   return std::clamp<size_t>(fitting, 1, SampleFragments::most_samples);
 }
 
-void Resolver::draw(const View& view, const Target& target, std::vector<VisibleTriangles> samples) {
+void Resolver::draw(const View& view, const Target& target) {
   target.begin();
-  if (samples.size() > 1) return draw_samples(view, target, std::move(samples));
-  set(view, samples.front());
+  if (fragments_.count() > 1) {
+    draw_several(view, target);
+  } else {
+    draw_one(view);
+  }
+  fragments_.clear();
+}
+
+void Resolver::draw_one(const View& view) {
+  set(view, fragments_.first());
   const Canvas canvas{view.size(), squares_.squares()};
   // A pixel without a ray is black; labels were cleared to nothing.
   if (!view.labels()) {
@@ -48,27 +56,27 @@ void Resolver::draw(const View& view, const Target& target, std::vector<VisibleT
   draw_surfaces(view, canvas);
 }
 
-void Resolver::draw_samples(const View& view, const Target& target, std::vector<VisibleTriangles> samples) {
-  const SampleFragments fragments(std::move(samples), view.shifts);
-  for (const auto& fragment : fragments.further) {
+void Resolver::draw_several(const View& view, const Target& target) {
+  fragments_.finish(view.shifts);
+  for (const auto& fragment : fragments_.further()) {
     if (fragment.hit.x != VisibleTriangles::nothing) squares_.see(fragment.hit.x);
   }
-  set(view, fragments.first);
-  coverage_.write(std::span<const SampleCoverage>(fragments.first_coverage));
+  set(view, fragments_.first());
+  coverage_.write(std::span<const SampleCoverage>(fragments_.first_coverage()));
   coverage_.bind(17);
   clear_to_black();
   const Canvas picture{view.size(), squares_.squares(), {{"SAMPLES", ""}}};
   draw_background(view, picture);
   draw_surfaces(view, picture);
-  if (fragments.further.empty()) return;
+  if (fragments_.further().empty()) return;
 
-  sheet_.lay_out(view, fragments.further, squares_);
+  sheet_.lay_out(view.size(), fragments_.further(), squares_);
   sheet_.begin();
   const Canvas sheet{sheet_.size(), sheet_.squares(), {{"SAMPLES", ""}, {"ON_SHEET", ""}}};
   draw_background(view, sheet);
   draw_surfaces(view, sheet);
   target.bind();
-  sheet_.add_to_target(view);
+  add_sheet(view, picture);
 }
 
 void Resolver::draw_over(const View& view, const VisibleTriangles& visible) {
@@ -173,6 +181,17 @@ void Resolver::draw_surfaces(const View& view, const Canvas& canvas) {
     draw_squares(program, view, canvas, squares);
   }
   tools_.counters.end();
+}
+
+void Resolver::add_sheet(const View& view, const Canvas& canvas) {
+  sheet_.bind();
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  draw_squares(tools_.programs.get({{GL_VERTEX_SHADER, "technique/material_tile.vert"},
+                                    {GL_FRAGMENT_SHADER, "technique/add_fragments.frag"}},
+                                   {}),
+               view, canvas, sheet_.picture_squares());
+  glDisable(GL_BLEND);
 }
 
 // Layer by layer from the farthest. A pixel with fewer surfaces than its neighbour joins in at the nearer layers.

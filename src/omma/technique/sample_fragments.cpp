@@ -8,76 +8,100 @@
 namespace omma {
 namespace {
 
-/// Of a set of samples, the one nearest to their middle.
-uint8_t middle_sample(uint32_t set, std::span<const glm::dvec2> shifts) {
+/// Of a set of samples.
+SampleCoverage coverage_of(uint32_t set, std::span<const glm::dvec2> shifts) {
+  SampleCoverage coverage{uint8_t(std::popcount(set)), 0};
   glm::dvec2 middle(0.0);
   for (uint32_t rest = set; rest != 0; rest &= rest - 1) middle += shifts[size_t(std::countr_zero(rest))];
-  middle /= double(std::popcount(set));
-  uint8_t nearest = 0;
+  middle /= double(coverage.count);
   double least = std::numeric_limits<double>::infinity();
   for (uint32_t rest = set; rest != 0; rest &= rest - 1) {
     const auto sample = uint8_t(std::countr_zero(rest));
     const glm::dvec2 offset = shifts[sample] - middle;
     if (const double distance = glm::dot(offset, offset); distance < least) {
       least = distance;
-      nearest = sample;
+      coverage.sample = sample;
     }
   }
-  return nearest;
+  return coverage;
 }
 
 }  // namespace
 
-SampleFragments::SampleFragments(std::vector<VisibleTriangles> samples, std::span<const glm::dvec2> shifts) {
-  const auto count = uint32_t(samples.size());
-  first = std::move(samples.front());
-  const size_t width = size_t(first.size.width), height = size_t(first.size.height);
-  first_coverage.resize(first.hits.size());
-  const uint32_t all = (1u << count) - 1;
-  const SampleCoverage whole{uint8_t(count), middle_sample(all, shifts)};
-
-  std::vector<std::vector<Fragment>> rows(height);
-  tbb::parallel_for(size_t{0}, height, [&](size_t y) {
-    glm::uvec2* const firsts = first.hits.data() + y * width;
-    SampleCoverage* const coverage = first_coverage.data() + y * width;
-    // Most pixels see one triangle; sample by sample that is soon known.
-    std::vector<uint8_t> differs(width, 0);
-    for (uint32_t s = 1; s < count; ++s) {
-      const glm::uvec2* others = samples[s].hits.data() + y * width;
-      for (size_t x = 0; x < width; ++x) {
-        differs[x] |= uint8_t((firsts[x].x != others[x].x) | (firsts[x].y != others[x].y));
-      }
+void SampleFragments::add(VisibleTriangles& sample) {
+  if (count_ == 0) {
+    std::swap(first_, sample);
+  } else {
+    if (count_ == 1) {
+      first_set_.assign(first_.hits.size(), 1);
+      links_.assign(first_.hits.size(), 0);
+      rows_.resize(size_t(first_.size.height));
+      for (auto& row : rows_) row.clear();
     }
-    for (size_t x = 0; x < width; ++x) {
-      if (!differs[x]) {
-        if (firsts[x].y != VisibleTriangles::no_ray) coverage[x] = whole;
-        continue;
-      }
-      const glm::uvec2 of_first_sample = firsts[x];
-      const auto hit_of = [&](uint32_t s) { return s == 0 ? of_first_sample : samples[s].hits[y * width + x]; };
-      for (uint32_t rest = all; rest != 0;) {
-        const glm::uvec2 hit = hit_of(uint32_t(std::countr_zero(rest)));
-        uint32_t set = 0;
-        for (uint32_t others = rest; others != 0; others &= others - 1) {
-          const auto s = uint32_t(std::countr_zero(others));
-          if (hit_of(s) == hit) set |= 1u << s;
-        }
-        rest &= ~set;
-        if (hit.y == VisibleTriangles::no_ray) continue;
-        const SampleCoverage seen{uint8_t(std::popcount(set)), middle_sample(set, shifts)};
-        if (coverage[x].count == 0) {
-          firsts[x] = hit;
-          coverage[x] = seen;
-        } else {
-          rows[y].push_back({glm::u16vec2(x, y), seen, hit});
-        }
+    tbb::parallel_for(size_t{0}, rows_.size(),
+                      [&](size_t y) { add_to_row(y, sample.hits.data() + y * size_t(sample.size.width)); });
+  }
+  ++count_;
+}
+
+void SampleFragments::add_to_row(size_t y, const glm::uvec2* hits) {
+  const auto width = size_t(first_.size.width);
+  const auto bit = SampleSet(1u << count_);
+  glm::uvec2* const firsts = first_.hits.data() + y * width;
+  SampleSet* const sets = first_set_.data() + y * width;
+  std::vector<Link>& row = rows_[y];
+  for (size_t x = 0; x < width; ++x) {
+    if (hits[x] == firsts[x]) {
+      sets[x] |= bit;
+      continue;
+    }
+    if (hits[x].y == VisibleTriangles::no_ray) continue;
+    if (firsts[x].y == VisibleTriangles::no_ray) {
+      firsts[x] = hits[x];
+      sets[x] = bit;
+      continue;
+    }
+    uint32_t* at = &links_[y * width + x];
+    while (*at != 0 && row[*at - 1].hit != hits[x]) at = &row[*at - 1].next;
+    if (*at == 0) {
+      *at = uint32_t(row.size() + 1);
+      row.push_back({hits[x], 0, 0});
+      row.back().set = bit;
+    } else {
+      row[*at - 1].set |= bit;
+    }
+  }
+}
+
+void SampleFragments::finish(std::span<const glm::dvec2> shifts) {
+  const auto all = SampleSet((1u << count_) - 1);
+  const SampleCoverage whole = coverage_of(all, shifts);
+  const auto width = size_t(first_.size.width);
+  first_coverage_.resize(first_set_.size());
+  std::vector<size_t> places(rows_.size() + 1, 0);
+  for (size_t y = 0; y < rows_.size(); ++y) places[y + 1] = places[y] + rows_[y].size();
+  further_.resize(places.back());
+  tbb::parallel_for(size_t{0}, rows_.size(), [&](size_t y) {
+    Fragment* out = further_.data() + places[y];
+    for (size_t i = y * width; i < (y + 1) * width; ++i) {
+      const bool has_ray = first_.hits[i].y != VisibleTriangles::no_ray;
+      first_coverage_[i] = !has_ray               ? SampleCoverage{}
+                           : first_set_[i] == all ? whole
+                                                  : coverage_of(first_set_[i], shifts);
+      for (uint32_t at = links_[i]; at != 0; at = rows_[y][at - 1].next) {
+        const Link& link = rows_[y][at - 1];
+        *out++ = {glm::u16vec2(i - y * width, y), coverage_of(link.set, shifts), link.hit};
       }
     }
   });
-  size_t sum = 0;
-  for (const auto& row : rows) sum += row.size();
-  further.reserve(sum);
-  for (const auto& row : rows) further.insert(further.end(), row.begin(), row.end());
+}
+
+size_t SampleFragments::bytes() const {
+  size_t sum = first_.hits.capacity() * sizeof(glm::uvec2) + first_set_.capacity() * sizeof(SampleSet) +
+               links_.capacity() * sizeof(uint32_t) + first_coverage_.capacity() * sizeof(SampleCoverage) +
+               further_.capacity() * sizeof(Fragment);
+  for (const auto& row : rows_) sum += row.capacity() * sizeof(Link);
+  return sum;
 }
 
 }  // namespace omma

@@ -16,7 +16,10 @@ struct SampleCoverage {
   uint8_t count = 0, sample = 0;
 };
 
-struct SampleFragments {
+/// One sample of every pixel is added after the other: what most samples see is kept once. Runs on all cores; the
+/// result depends on the samples alone.
+class SampleFragments {
+ public:
   static constexpr size_t most_samples = 16;
 
   struct Fragment {
@@ -25,13 +28,41 @@ struct SampleFragments {
     glm::uvec2 hit;  ///< as in VisibleTriangles
   };
 
-  /// From what each sample sees, at `shifts` from the pixels' centres. As many samples as shifts, one to most_samples;
-  /// none of them needs a ray. Runs on all cores; the result depends on the samples alone.
-  SampleFragments(std::vector<VisibleTriangles> samples, std::span<const glm::dvec2> shifts);
+  /// Forgets all samples.
+  void clear() { count_ = 0; }
+  size_t count() const { return count_; }
+  /// What the next sample sees, of the size that the others have; not every pixel needs a ray. What `sample` holds
+  /// afterwards is of no meaning.
+  void add(VisibleTriangles& sample);
+  /// Once all are there, two or more, at `shifts` from the pixels' centres. `first` alone needs no finish.
+  void finish(std::span<const glm::dvec2> shifts);
 
-  VisibleTriangles first;                      ///< of every pixel; what its first sample with a ray sees
-  std::vector<SampleCoverage> first_coverage;  ///< by pixel; none where no sample has a ray
-  std::vector<Fragment> further;               ///< whatever else a pixel sees; rows from the top, pixels from the left
+  /// Of every pixel; what its first sample with a ray sees.
+  const VisibleTriangles& first() const { return first_; }
+  /// By pixel; none where no sample has a ray.
+  const std::vector<SampleCoverage>& first_coverage() const { return first_coverage_; }
+  /// Whatever else a pixel sees; rows from the top, pixels from the left.
+  const std::vector<Fragment>& further() const { return further_; }
+
+  size_t bytes() const;
+
+ private:
+  using SampleSet = uint16_t;
+  /// What a pixel sees beside its first hit, and the next of the kind in its row's list; 0 is none.
+  struct Link {
+    glm::uvec2 hit;
+    SampleSet set;
+    uint32_t next;
+  };
+  void add_to_row(size_t y, const glm::uvec2* hits);
+
+  size_t count_ = 0;
+  VisibleTriangles first_;
+  std::vector<SampleSet> first_set_;
+  std::vector<uint32_t> links_;          ///< by pixel: the first of its links, plus one
+  std::vector<std::vector<Link>> rows_;  ///< of pixels
+  std::vector<SampleCoverage> first_coverage_;
+  std::vector<Fragment> further_;
 };
 
 }  // namespace omma

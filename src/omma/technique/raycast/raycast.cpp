@@ -27,20 +27,20 @@ class Raycast : public Technique {
     trees_.set_view(view.worldFromCamera);
     const std::span<const glm::vec3> at_centre;
     std::vector<RayHit> hits(size_t(view.size().width) * size_t(view.size().height));
-    std::vector<VisibleTriangles> samples;
     for (const glm::dvec2& shift : view.all_shifts()) {
       const RayMap& rays = rays_.get(view, shift, make_rays);
       trees_.nearest(at_centre, rays.directions, rays.size.width, view.labels() ? Solid::labels : Solid::opaque, hits);
-      VisibleTriangles& visible = samples.emplace_back(VisibleTriangles{rays.size, {}});
-      visible.hits.reserve(hits.size());
+      visible_.size = rays.size;
+      visible_.hits.resize(hits.size());
       for (size_t i = 0; i < hits.size(); ++i) {
         const bool has_ray = rays.directions[i] != glm::vec3(0.0f);
-        visible.hits.emplace_back(hits[i].triangle, has_ray ? hits[i].instance : VisibleTriangles::no_ray);
+        visible_.hits[i] = {hits[i].triangle, has_ray ? hits[i].instance : VisibleTriangles::no_ray};
       }
+      resolver_.add(visible_);
     }
 
     tools_.timer.mark("resolve");
-    resolver_.draw(view, target, std::move(samples));
+    resolver_.draw(view, target);
     if (!view.labels() && trees_.has_blending()) {
       tools_.timer.mark("blend");
       const RayMap& rays = rays_.get(view, view.shift, make_rays);
@@ -53,6 +53,7 @@ class Raycast : public Technique {
   EmbreeScene trees_;
   Resolver resolver_;
   PassCache<RayMap> rays_;
+  VisibleTriangles visible_;
 };
 
 }  // namespace

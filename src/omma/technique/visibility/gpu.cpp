@@ -22,7 +22,6 @@ class GpuVisibility : public Technique {
   void draw(const View& view, const Target& target) override {
     tools_.timer.mark("place");
     finder_.set_view(view.worldFromCamera);
-    std::vector<VisibleTriangles> samples;
     std::vector<std::vector<RayHit>> layers;
     for (const glm::dvec2& shift : view.all_shifts()) {
       tools_.timer.mark("ray tree");
@@ -30,12 +29,13 @@ class GpuVisibility : public Technique {
         return GpuRays(RayTree(rays_of(camera, tile, at)), tools_.context.limits());
       });
       tools_.timer.mark("find");
-      samples.push_back(finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque));
+      VisibleTriangles visible = finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque);
+      resolver_.add(visible);
       if (!view.labels() && finder_.has_blending()) layers = finder_.blended(rays);
     }
 
     tools_.timer.mark("resolve");
-    resolver_.draw(view, target, std::move(samples));
+    resolver_.draw(view, target);
     if (!layers.empty()) {
       tools_.timer.mark("blend");
       resolver_.draw_layers(view, layers);

@@ -30,18 +30,18 @@ class Visibility : public Technique {
     const size_t pixels = size_t(view.size().width) * size_t(view.size().height);
     const bool layered = !view.labels() && finder_.has_blending();
     std::vector<float> distances(layered ? pixels : 0);
-    std::vector<VisibleTriangles> samples;
     for (const glm::dvec2& shift : view.all_shifts()) {
       tools_.timer.mark("ray tree");
       const RayTree& rays = rays_.get(view, shift, make_tree);
       tools_.timer.mark("find");
-      VisibleTriangles& visible = samples.emplace_back(VisibleTriangles{view.size(), {}});
-      visible.hits.resize(pixels);
-      finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque, visible.hits, distances);
+      visible_.size = view.size();
+      visible_.hits.resize(pixels);
+      finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque, visible_.hits, distances);
+      resolver_.add(visible_);
     }
 
     tools_.timer.mark("resolve");
-    resolver_.draw(view, target, std::move(samples));
+    resolver_.draw(view, target);
     if (layered) {
       tools_.timer.mark("blend");
       resolver_.draw_layers(view, finder_.blended(rays_.get(view, view.shift, make_tree), distances));
@@ -59,6 +59,7 @@ class Visibility : public Technique {
   Finder finder_;
   Resolver resolver_;
   PassCache<RayTree> rays_;
+  VisibleTriangles visible_;  ///< of the sample that is being found
 };
 
 }  // namespace
