@@ -214,6 +214,22 @@ TEST_F(SeveralSamplesTest, GoWithShadowsEffectsAndReflections) {
   }
 }
 
+TEST_F(SeveralSamplesTest, FollowOneAnotherInAnySizeAndNumber) {
+  // What a picture leaves behind is nothing to the next.
+  const Scene scene = confetti();
+  renderer().load(scene);
+  const glm::dmat4 pose = pose_at({0.3, -0.2, 0.1}, 0.4, 0.2);
+  const auto look_at = [&](ImageSize size, int samples) {
+    return look(make_camera("equidistant:fov_deg=180", size), pose,
+                {.technique = "visibility:cpu", .samples = samples});
+  };
+  const FloatImage first = look_at({60, 40}, 5);
+  look_at({90, 70}, 16);
+  look_at({31, 8}, 1);
+  look_at({8, 31}, 3);
+  EXPECT_EQ(largest_difference(look_at({60, 40}, 5), first), 0.0);
+}
+
 TEST(SamplesAtOnce, AreFewerInLargeTiles) {
   const gl::Context context;
   const Scene scene = SceneMaker().finish();

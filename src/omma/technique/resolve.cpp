@@ -24,10 +24,10 @@ Resolver::Resolver(DrawTools& tools) : tools_(tools), squares_(tools.scene.scene
 }
 
 size_t Resolver::samples_at_once(ImageSize size) const {
-  // Two numbers of each sample, and as much again where all of them see something else.
+  // Where every sample sees something else, each is a fragment. The sheet of them has room between its materials.
   constexpr size_t most = size_t(1) << 25;
   const size_t pixels = std::max<size_t>(1, size_t(size.width) * size_t(size.height));
-  const size_t fitting = std::min(most, size_t(tools_.context.limits().buffer_texels)) / pixels;
+  const size_t fitting = std::min(most, size_t(tools_.context.limits().buffer_texels) / 2) / pixels;
   return std::clamp<size_t>(fitting, 1, SampleFragments::most_samples);
 }
 
@@ -38,7 +38,6 @@ void Resolver::draw(const View& view, const Target& target) {
   } else {
     draw_one(view);
   }
-  fragments_.clear();
 }
 
 void Resolver::draw_one(const View& view) {
@@ -109,6 +108,11 @@ void Resolver::set(const View& view, const VisibleTriangles& visible) {
   const std::vector<glm::uvec2>& triangles = squares_.triangles();
   triangles_.write(std::span<const glm::uvec2>(triangles));
   const gl::Defines defines = record_defines(view);
+  if (const auto most = size_t(tools_.context.limits().buffer_texels);
+      triangles.size() * record_texels(defines) > most) {
+    throw MachineError("{} visible triangles do not fit into this driver's buffers of {} texels; set a tile",
+                       triangles.size(), most);
+  }
   const size_t record_bytes = record_texels(defines) * sizeof(glm::vec4);
   records_.reserve(std::max<size_t>(1, triangles.size()) * record_bytes);
 

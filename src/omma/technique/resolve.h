@@ -15,6 +15,8 @@ class Resolver {
   /// How many samples of a pixel `draw` takes of so large a picture: what is kept of each is bounded.
   size_t samples_at_once(ImageSize size) const;
 
+  /// A new picture.
+  void begin() { fragments_.clear(); }
   /// What the next sample of the view sees, for each of its shifts in turn. `visible` holds nothing of meaning
   /// afterwards.
   void add(VisibleTriangles& visible) { fragments_.add(visible); }

@@ -27,6 +27,7 @@ class Raycast : public Technique {
     trees_.set_view(view.worldFromCamera);
     const std::span<const glm::vec3> at_centre;
     std::vector<RayHit> hits(size_t(view.size().width) * size_t(view.size().height));
+    resolver_.begin();
     for (const glm::dvec2& shift : view.all_shifts()) {
       const RayMap& rays = rays_.get(view, shift, make_rays);
       trees_.nearest(at_centre, rays.directions, rays.size.width, view.labels() ? Solid::labels : Solid::opaque, hits);

@@ -23,6 +23,7 @@ class GpuVisibility : public Technique {
     tools_.timer.mark("place");
     finder_.set_view(view.worldFromCamera);
     std::vector<std::vector<RayHit>> layers;
+    resolver_.begin();
     for (const glm::dvec2& shift : view.all_shifts()) {
       tools_.timer.mark("ray tree");
       const GpuRays& rays = rays_.get(view, shift, [this](const Camera& camera, const PixelRect& tile, glm::dvec2 at) {

@@ -30,6 +30,7 @@ class Visibility : public Technique {
     const size_t pixels = size_t(view.size().width) * size_t(view.size().height);
     const bool layered = !view.labels() && finder_.has_blending();
     std::vector<float> distances(layered ? pixels : 0);
+    resolver_.begin();
     for (const glm::dvec2& shift : view.all_shifts()) {
       tools_.timer.mark("ray tree");
       const RayTree& rays = rays_.get(view, shift, make_tree);
