@@ -5,6 +5,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <random>
+#include <tuple>
 
 #include "omma/camera/ray_bundle.h"
 #include "omma/technique/raycast/embree_scene.h"
@@ -26,6 +27,10 @@ std::string small_form(const std::string& scene) {
   if (scene == "terrain") return "terrain:triangles=3000";
   return scene;
 }
+
+/// Pixels beside an edge. Observed: 1.6e-3, of Embree's, on the city's ground: single precision rounds corners that are
+/// 5 km away by 0.3 mm, which 4 m above the ground is 0.08 mrad.
+constexpr double radius = 2e-3;
 
 class FindersAgreeTest : public ::testing::TestWithParam<std::string> {
  protected:
@@ -84,10 +89,11 @@ TEST_P(FindersAgreeTest, InEveryCamera) {
         if (share == 0.0) continue;
         differences[finder] += size_t(std::lround(share * double(rays.directions.size())));
         if (!oracle) oracle.emplace(scene, pose);
-        for (const auto& [mine, others] : {std::pair(&ids, &expected), std::pair(&expected, &ids)}) {
-          const Verdict verdict = judge(*oracle, camera, *mine, {.radius = 1e-3}, others);
-          EXPECT_EQ(verdict.wrong, 0u) << fmt::format("{} and {} through {}, pose {}: {}", first, finder, name, p,
-                                                      verdict.first_wrong);
+        for (const auto& [judged, mine, others] :
+             {std::tuple(&finder, &ids, &expected), std::tuple(&first, &expected, &ids)}) {
+          const Verdict verdict = judge(*oracle, camera, *mine, {.radius = radius}, others);
+          EXPECT_EQ(verdict.wrong, 0u) << fmt::format("{} of {} and {} through {}, pose {}: {}", *judged, first, finder,
+                                                      name, p, verdict.first_wrong);
         }
       }
     }
