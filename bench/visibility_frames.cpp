@@ -12,7 +12,6 @@
 #include "omma/camera/ray_bundle.h"
 #include "omma/math/pose.h"
 #include "omma/technique/renderer.h"
-#include "omma/visibility/channel_renderer.h"
 
 namespace omma::bench {
 namespace {
@@ -21,7 +20,7 @@ constexpr ImageSize size{1600, 1200};
 constexpr const char* lens = "equidistant:fov_deg=180";
 constexpr const char* planar = "planar";
 constexpr const char* techniques_drawn[] = {planar,    "image-based:passes", "image-based:layered", "image-based:seen",
-                                            "raycast", "visibility:cpu"};
+                                            "raycast", "visibility:resolve", "visibility:cpu"};
 /// They take seconds for what the others draw in a tenth: in the first case of each small scene alone.
 constexpr const char* slow_techniques[] = {"nonlinear:hybrid", "piecewise:compute"};
 constexpr const char* by_hand = "Embree, Lambert";
@@ -202,16 +201,11 @@ nlohmann::json run_channels(const std::string& name, int runs) {
   const glm::dmat4 pose = look_at_worldFromCamera(scene.default_from, scene.default_to);
   const Camera camera = make_camera(lens, size);
   constexpr Channel wanted[] = {Channel::id, Channel::distance};
-  constexpr const char* drawn[] = {"raycast", "image-based:seen"};
+  constexpr const char* drawn[] = {"visibility:cpu", "raycast", "image-based:seen"};
   Renderer renderer;
   renderer.load(scene);
-  ChannelRenderer channels(scene);
-  ChannelStats stats;
-  std::vector<std::string> names{"visibility:cpu, without GL"};
-  std::vector<std::function<double()>> frames{[&] {
-    channels.render(camera, pose, wanted, 0, &stats);
-    return stats.rays_ms + stats.find_ms;
-  }};
+  std::vector<std::string> names;
+  std::vector<std::function<double()>> frames;
   for (const char* technique : drawn) {
     names.emplace_back(technique);
     frames.emplace_back([&, technique] {

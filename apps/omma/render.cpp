@@ -92,7 +92,7 @@ class Job {
       }
     }
     const bool has_color = std::find(channels_.begin(), channels_.end(), Channel::color) != channels_.end();
-    check_show(render_options_.show, choose_technique(render_options_.technique, camera_, has_color));
+    check_show(render_options_.show, choose_technique(render_options_.technique, camera_, {.shaded = has_color}));
     if ((!effects_of(render_options_).empty() || !render_options_.show.empty()) && !has_color) {
       throw CommandError("--effect and --show change the colour alone, and no -o asks for it");
     }

@@ -1,12 +1,17 @@
-// What holds for a whole frame. Matches FrameBlock and LightRecord in technique/gpu_scene.cpp.
+// What holds for a whole frame. Matches FrameBlock in technique/gpu_scene.cpp and LightRecord in scene/lights.h.
+#ifndef __cplusplus
+#include "shading/language.glsl"
+#endif
 
 struct LightRecord {
   vec4 position;   // camera frame; w: range in metres, 0 none
-  vec4 direction;  // camera frame, the way the light travels; w: 0 sun, 1 point, 2 spot
+  vec4 direction;  // camera frame, the way the light travels; w: its kind
   vec4 color;      // suns: irradiance; others: radiant intensity
   vec4 cone;       // cosines of the spot's inner and outer angle; first and number of its shadow maps
 };
+const int LIGHT_SUN = 0, LIGHT_POINT = 1, LIGHT_SPOT = 2;
 
+#ifndef __cplusplus
 layout(std140, binding = 0) uniform FrameBlock {
   mat4 worldFromCamera;
   vec4 ambient;     // linear radiance from everywhere
@@ -22,16 +27,20 @@ LightRecord light_of(uint number) {
   return LightRecord(texelFetch(light_texels, at), texelFetch(light_texels, at + 1), texelFetch(light_texels, at + 2),
                      texelFetch(light_texels, at + 3));
 }
+int kind_of_light(uint number) {
+  return int(texelFetch(light_texels, 4 * int(number) + 1).w);
+}
+#endif
 
-vec3 sky(vec3 world_direction) {
-  float height = world_direction.y;
+SHADING vec3 sky(vec3 world_direction) {
+  real height = world_direction.y;
   vec3 horizon = vec3(0.72, 0.80, 0.88);
   vec3 above = mix(horizon, vec3(0.16, 0.34, 0.66), pow(max(height, 0.0), 0.55));
   vec3 below = mix(horizon * 0.8, vec3(0.20, 0.19, 0.18), min(1.0, -4.0 * height));
-  return height > 0.0 ? above : below;
+  return choose(height > 0.0, above, below);
 }
 
 // Radiance of a ray that meets nothing.
-vec3 background(vec3 direction) {
-  return frame.background.w > 0.0 ? frame.background.rgb : sky(mat3(frame.worldFromCamera) * direction);
+SHADING vec3 background(vec3 direction) {
+  return choose(frame.background.w > 0.0, xyz_of(frame.background), sky(mat3(frame.worldFromCamera) * direction));
 }

@@ -1,3 +1,7 @@
+#ifndef __cplusplus
+#include "shading/language.glsl"
+#endif
+
 // A point of a surface, whichever technique found it. All in the camera frame, whose origin is the camera's centre.
 struct Surface {
   vec3 position;  // metres
@@ -6,7 +10,9 @@ struct Surface {
   vec2 uv;
   vec2 uv_dx, uv_dy;  // change per pixel to the right and down
   vec4 color;         // of the vertices, linear
+#ifndef __cplusplus
   int triangle, object, material;
+#endif
 #ifdef SHADOWS
   vec3 plane;  // of its triangle: a normal of any length, to either side
 #endif

@@ -6,7 +6,7 @@ out MESH_VERTEX vertex;
 void write_vertex(InstanceRecord instance, vec3 position, uvec4 attributes, vec4 color, uvec2 part) {
   vertex.position = position;
   vertex.normal = normal_to_camera(instance, vertex_normal(attributes));
-#ifdef NORMAL_TEXTURE
+#ifdef TANGENTS
   vec4 tangent = vertex_tangent(attributes);
   vertex.tangent = vec4(direction_to_camera(instance, tangent.xyz), tangent.w);
 #else

@@ -17,20 +17,23 @@ std::vector<std::string> with(std::vector<std::string> words, const std::vector<
   return words;
 }
 
-TEST_F(Machine, NoUsableGlIsSaid) { expect_refusal({"doctor"}, 4, {"EGL", "every channel but color"}, no_gl); }
+TEST_F(Machine, NoUsableGlIsSaid) {
+  expect_refusal({"doctor"}, 4, {"EGL", "visibility:cpu draw everything but"}, no_gl);
+}
 
-TEST_F(Machine, ColourWithoutGlIsRefusedWithWhatWorks) {
-  for (const char* technique : {"auto", "visibility", "raycast"}) {
-    expect_refusal(with(small_render, {"-o", "a.png", "-o", "d.npy:distance", "--technique", technique}), 4,
-                   {"EGL", "visibility:cpu", "every channel but color", "distance, z, normal"}, no_gl);
+TEST_F(Machine, WhatNeedsGlIsRefusedWithWhatWorks) {
+  const std::vector<std::string> effects{"--effect", "checker"}, shadows{"--shadows", "cube"}, edges{"--show", "edges"};
+  for (const auto& needed : {effects, shadows, edges, {"--technique", "raycast"}}) {
+    expect_refusal(with(with(small_render, {"-o", "a.png"}), needed), 4,
+                   {"EGL", "auto and visibility:cpu draw everything but effects, shadows and reflections"}, no_gl);
   }
   expect_refusal(with(small_render, {"-o", "a.npy:id", "--technique", "raycast"}), 4, {"EGL", "auto"}, no_gl);
 }
 
-TEST_F(Machine, EveryChannelButColourNeedsNoGl) {
-  const std::vector<std::string> wanted{"-o", "a/d.npy:distance", "-o", "a/z.npy:z",       "-o", "a/n.npy:normal",
-                                        "-o", "a/p.npy:position", "-o", "a/uv.npy:uv",     "-o", "a/id.npy:id",
-                                        "-o", "a/o.npy:object",   "-o", "a/m.npy:material"};
+TEST_F(Machine, EveryChannelCanDoWithoutGl) {
+  const std::vector<std::string> wanted{"-o", "a/c.npy:color",  "-o", "a/d.npy:distance", "-o", "a/z.npy:z",
+                                        "-o", "a/n.npy:normal", "-o", "a/p.npy:position", "-o", "a/uv.npy:uv",
+                                        "-o", "a/id.npy:id",    "-o", "a/o.npy:object",   "-o", "a/m.npy:material"};
   const auto into = [&](const std::string& folder, const std::string& technique) {
     std::filesystem::create_directory(file(folder));
     std::vector<std::string> words = with(small_render, {"--technique", technique});
@@ -42,7 +45,7 @@ TEST_F(Machine, EveryChannelButColourNeedsNoGl) {
   EXPECT_NE(result.err.find("visibility:cpu on the processor"), std::string::npos) << result.err;
   ASSERT_EQ(run(into("b", "visibility"), no_gl).exit_code, 0);
   ASSERT_EQ(run(into("c", "auto")).exit_code, 0);
-  for (const char* name : {"d.npy", "z.npy", "n.npy", "p.npy", "uv.npy", "id.npy", "o.npy", "m.npy"}) {
+  for (const char* name : {"c.npy", "d.npy", "z.npy", "n.npy", "p.npy", "uv.npy", "id.npy", "o.npy", "m.npy"}) {
     for (const char* other : {"b/", "c/"}) {
       EXPECT_TRUE(read_file(file(std::string("a/") + name)) == read_file(file(std::string(other) + name)))
           << other << name;

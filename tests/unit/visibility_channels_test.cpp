@@ -6,8 +6,8 @@
 
 #include "omma/base/error.h"
 #include "omma/math/pose.h"
-#include "omma/visibility/channel_renderer.h"
-#include "omma/visibility/seen_triangle.h"
+#include "omma/software/seen_triangle.h"
+#include "omma/software/software_renderer.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
 
@@ -32,13 +32,13 @@ Scene make_balls(const glm::dvec3& origin) {
   return maker.finish();
 }
 
-TEST(ChannelRendererTest, AgreesWithBruteForce) {
+TEST(SoftwareRendererTest, AgreesWithBruteForce) {
   for (const glm::dvec3 origin : {glm::dvec3(0.0), glm::dvec3(1e6, 3e5, -1e6)}) {
     const Scene scene = make_balls(origin);
     const glm::dmat4 pose =
         look_at_worldFromCamera(origin + glm::dvec3(0.3, 0.4, 0.2), origin + glm::dvec3(0.2, 0, -4));
     const Oracle oracle(scene, pose);
-    ChannelRenderer renderer(scene);
+    SoftwareRenderer renderer(scene);
     size_t compared = 0, seen = 0;
     double distance = 0.0, normal = 0.0, uv = 0.0, position = 0.0;
     for (const char* text : {"equidistant:fov_deg=300", "equirectangular", "perspective:fov_deg=100"}) {
@@ -104,14 +104,14 @@ TEST(SeenTriangleTest, EdgeOnTheFindersDistanceStands) {
   EXPECT_NEAR(uv.y, 0.875, 1e-12);
 }
 
-TEST(ChannelRendererTest, TilesAreOnePicture) {
+TEST(SoftwareRendererTest, TilesAreOnePicture) {
   const Scene scene = make_balls(glm::dvec3(0.0));
   const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{70, 50});
-  ChannelRenderer renderer(scene);
+  SoftwareRenderer renderer(scene);
   const auto whole = renderer.render(camera, glm::dmat4(1.0), all_but_color);
   for (const int tile : {1, 7, 16, 33, 70}) {
-    ChannelStats stats;
-    const auto parts = renderer.render(camera, glm::dmat4(1.0), all_but_color, tile, &stats);
+    SoftwareStats stats;
+    const auto parts = renderer.render(camera, glm::dmat4(1.0), all_but_color, {.tile = tile}, &stats);
     EXPECT_EQ(stats.tiles, ((70 + tile - 1) / tile) * ((50 + tile - 1) / tile));
     for (const auto& [channel, image] : whole) {
       std::visit(
@@ -123,16 +123,16 @@ TEST(ChannelRendererTest, TilesAreOnePicture) {
   }
 }
 
-TEST(ChannelRendererTest, FollowsWhatMoves) {
+TEST(SoftwareRendererTest, FollowsWhatMoves) {
   Scene scene = make_ball_and_pane();
-  ChannelRenderer renderer(scene);
+  SoftwareRenderer renderer(scene);
   const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{64, 64});
   constexpr Channel wanted[] = {Channel::distance, Channel::object};
   std::mt19937 random(3);
   for (int frame = 0; frame < 6; ++frame) {
     move_ball(scene, frame, random);
     renderer.update();
-    ChannelRenderer anew(scene);
+    SoftwareRenderer anew(scene);
     const auto followed = renderer.render(camera, glm::dmat4(1.0), wanted);
     const auto expected = anew.render(camera, glm::dmat4(1.0), wanted);
     EXPECT_EQ(std::get<FloatImage>(followed.at(Channel::distance)).values,
@@ -142,16 +142,16 @@ TEST(ChannelRendererTest, FollowsWhatMoves) {
   }
 }
 
-TEST(ChannelRendererTest, RefusesWhatItCannotDraw) {
+TEST(SoftwareRendererTest, RefusesWhatItCannotDraw) {
   const Scene scene = make_ball_and_pane();
-  ChannelRenderer renderer(scene);
+  SoftwareRenderer renderer(scene);
   const Camera camera = make_camera("equidistant", ImageSize{8, 8});
   constexpr Channel color[] = {Channel::id, Channel::color}, id[] = {Channel::id};
-  EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), color), CommandError);
+  EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), color, {.samples = 0}), CommandError);
   EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), {}), CommandError);
-  EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), id, -1), CommandError);
+  EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), id, {.tile = -1}), CommandError);
   const Scene empty;
-  ChannelRenderer nothing(empty);
+  SoftwareRenderer nothing(empty);
   const auto pictures = nothing.render(camera, glm::dmat4(1.0), id);
   for (const int32_t value : std::get<IntImage>(pictures.at(Channel::id)).values) EXPECT_EQ(value, -1);
 }

@@ -1,6 +1,6 @@
 // A fragment of a triangle's bounding shape: kept where its rays meet the triangle, with what they see there.
 #define TRIANGLE_COLORS
-#ifdef NORMAL_TEXTURE
+#ifdef TANGENTS
 #define TRIANGLE_TANGENTS
 #endif
 #include "shading/output.glsl"

@@ -23,7 +23,7 @@ void write_corner(Record r, int corner) {
   uvec4 c = texelFetch(attributes, int(corners.z));
   vertex.position = r.position[corner];
   vertex.normal = normal_to_camera(instance, mat3(vertex_normal(a), vertex_normal(b), vertex_normal(c)) * weight);
-#ifdef NORMAL_TEXTURE
+#ifdef TANGENTS
   vec4 tangent = vertex_tangent(a) * weight.x + vertex_tangent(b) * weight.y + vertex_tangent(c) * weight.z;
   vertex.tangent = vec4(direction_to_camera(instance, tangent.xyz), tangent.w);
 #else

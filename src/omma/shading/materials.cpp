@@ -87,17 +87,18 @@ Materials::Materials(const Scene& scene, const gl::Context& context) : scene_(&s
 
 gl::Defines Materials::defines(int index, bool anisotropic, bool labels) const {
   const Material& material = scene_->materials[size_t(index)];
-  gl::Defines defines;
-  if (material.base_color_texture >= 0) defines["BASE_COLOR_TEXTURE"] = "1";
+  const auto truth = [](bool value) { return value ? "true" : "false"; };
+  gl::Defines defines{{"BASE_COLOR_TEXTURE", truth(material.base_color_texture >= 0)},
+                      {"NORMAL_TEXTURE", truth(!labels && material.normal_texture >= 0)},
+                      {"METALLIC_ROUGHNESS_TEXTURE", truth(!labels && material.metallic_roughness_texture >= 0)},
+                      {"EMISSIVE_TEXTURE", truth(!labels && material.emissive_texture >= 0)},
+                      {"ALPHA_BLEND", truth(!labels && material.alpha == Material::Alpha::blend)},
+                      {"UNLIT", truth(!labels && material.unlit)}};
   const bool masked = material.alpha == Material::Alpha::mask || (labels && material.alpha == Material::Alpha::blend);
   if (masked) defines["ALPHA_MASK"] = "1";
   if (anisotropic && software_) defines["FILTER_TAPS"] = "1";
-  if (labels) return defines;
-  if (material.normal_texture >= 0) defines["NORMAL_TEXTURE"] = "1";
-  if (material.metallic_roughness_texture >= 0) defines["METALLIC_ROUGHNESS_TEXTURE"] = "1";
-  if (material.emissive_texture >= 0) defines["EMISSIVE_TEXTURE"] = "1";
-  if (material.alpha == Material::Alpha::blend) defines["ALPHA_BLEND"] = "1";
-  if (material.unlit) defines["UNLIT"] = "1";
+  // So that triangles bring their tangents along.
+  if (!labels && material.normal_texture >= 0) defines["TANGENTS"] = "1";
   return defines;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "omma/base/error.h"
+#include "omma/math/spread.h"
 #include "omma/math/tiles.h"
 
 namespace omma {
@@ -22,11 +23,6 @@ namespace {
 
 /// A tile's images are many (samples, depth, channels); larger tiles gain nothing.
 constexpr int preferred_tile = 4096;
-
-/// The R2 sequence (Roberts 2018): any first n points are spread evenly.
-glm::dvec2 spread_point(int i) {
-  return glm::fract(glm::dvec2(0.5) + double(i) * glm::dvec2(0.7548776662466927, 0.5698402909980532)) - 0.5;
-}
 
 Image make_image(Channel channel, ImageSize size) {
   const ChannelInfo& info = channel_info(channel);

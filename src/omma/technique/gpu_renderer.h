@@ -23,6 +23,8 @@ class GpuRenderer {
   GpuRenderer(const GpuRenderer&) = delete;
   GpuRenderer& operator=(const GpuRenderer&) = delete;
 
+  bool is_software() const { return context_.software(); }
+
   /// Uploads the scene, which must outlive this object or the next call.
   void load(const Scene& scene);
   void update();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "omma/base/error.h"
+#include "omma/scene/lights.h"
 #include "omma/technique/target.h"
 
 namespace omma {
@@ -13,11 +14,6 @@ namespace {
 struct InstanceRecord {
   glm::vec4 cameraFromObject[3];
   glm::uvec4 numbers;
-};
-
-/// Four texels, as in common/frame.glsl.
-struct LightRecord {
-  glm::vec4 position, direction, color, cone;
 };
 
 /// Four texels, as in shading/shadow.glsl, behind those of the lights.
@@ -56,29 +52,11 @@ glm::uvec4 pack_attributes(const Mesh& mesh, size_t i) {
   return {pack_direction(mesh.normals[i]), tangent, glm::floatBitsToUint(uv.x), glm::floatBitsToUint(uv.y)};
 }
 
-/// Used where neither the file nor the scene has a light.
-Light default_sun() {
-  Light sun;
-  sun.direction = glm::normalize(glm::dvec3(-0.5, -1.0, -0.35));
-  sun.color = glm::vec3(2.8f, 2.7f, 2.5f);
-  return sun;
-}
-
 MapRecord record(const ShadowLayer& layer, const glm::dmat4& worldFromCamera) {
   const glm::mat4 rows = glm::transpose(glm::mat4(glm::inverse(layer.worldFromMap) * worldFromCamera));
   const Lens& lens = *layer.camera.lens();
   return {{rows[0], -rows[1], -rows[2]},
           glm::vec4(lens.focal.x, lens.centre.x, layer.flat() ? 1.0f : 0.0f, near_depth)};
-}
-
-LightRecord record(const Light& light, const glm::dmat4& cameraFromWorld) {
-  LightRecord record{};
-  record.position = glm::vec4(glm::vec3(cameraFromWorld * glm::dvec4(light.position, 1.0)), light.range);
-  const glm::dvec3 direction = glm::normalize(glm::dmat3(cameraFromWorld) * light.direction);
-  record.direction = glm::vec4(glm::vec3(direction), float(static_cast<int>(light.kind)));
-  record.color = glm::vec4(light.color, 0.0f);
-  record.cone = glm::vec4(std::cos(light.inner_angle), std::cos(light.outer_angle), 0.0f, 0.0f);
-  return record;
 }
 
 enum Attribute : GLuint { position_attribute, packed_attribute, color_attribute, part_attribute };
@@ -165,10 +143,6 @@ GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&sce
   place_parts();
 }
 
-std::vector<Light> GpuScene::lights() const {
-  return scene_->lights.empty() ? std::vector<Light>{default_sun()} : scene_->lights;
-}
-
 bool GpuScene::reflects(int material) const {
   if (reflection_ == nullptr) return false;
   return std::any_of(scene_->instances.begin(), scene_->instances.end(), [&](const Instance& instance) {
@@ -219,7 +193,7 @@ void GpuScene::set_view(const glm::dmat4& worldFromCamera, const std::optional<g
   instances_.write(std::span<const InstanceRecord>(records));
 
   std::vector<LightRecord> lights;
-  for (const Light& light : this->lights()) lights.push_back(record(light, cameraFromWorld));
+  for (const Light& light : lights_of(*scene_)) lights.push_back(light_record(light, cameraFromWorld));
   std::vector<MapRecord> maps;
   if (shadows_ != nullptr) {
     for (const ShadowLayer& layer : shadows_->layers) {

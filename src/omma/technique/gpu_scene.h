@@ -70,8 +70,6 @@ class GpuScene {
   void bind_vertex_textures() const;
 
   const Scene& scene() const { return *scene_; }
-  /// Those of the scene, or a sun where it has none.
-  std::vector<Light> lights() const;
   const std::vector<Part>& parts() const { return parts_; }
   const Materials& materials() const { return materials_; }
   const gl::VertexArray& vertex_array() const { return vertex_array_; }

@@ -86,7 +86,8 @@ struct VariantInfo {
   std::string name;
   std::string description;
   bool needs_project = false;  ///< cannot draw a ray map, whatever its technique's other variants can
-  bool without_gl = false;     ///< draws every channel but color without OpenGL
+  bool without_gl = false;     ///< draws without OpenGL what SoftwareRenderer does, all else as the variant `with_gl`
+  std::string with_gl{};
 };
 
 struct TechniqueInfo {

@@ -12,7 +12,6 @@
 #include "omma/technique/subdivision/subdivision.h"
 #include "omma/technique/vertex/vertex.h"
 #include "omma/technique/visibility/visibility.h"
-#include "omma/visibility/channel_renderer.h"
 
 namespace omma {
 namespace {
@@ -66,23 +65,22 @@ bool ChosenTechnique::draws_without_gl() const {
 std::span<const TechniqueEntry* const> technique_entries() { return entries; }
 
 std::string what_works_without_gl() {
-  std::string techniques, names;
+  std::string techniques;
   for (const TechniqueEntry* entry : entries) {
     for (const VariantInfo& variant : entry->info.variants) {
       if (variant.without_gl) techniques += fmt::format(" and {}:{}", entry->info.name, variant.name);
     }
   }
-  for (const ChannelInfo& info : channels()) {
-    if (!is_shaded(info.channel)) names += fmt::format("{}{}", names.empty() ? "" : ", ", info.name);
-  }
-  return fmt::format("without OpenGL, technique auto{} draw every channel but color: {}", techniques, names);
+  return fmt::format("without OpenGL, technique auto{} draw everything but effects, shadows and reflections",
+                     techniques);
 }
 
-ChosenTechnique choose_technique(std::string_view text, const Camera& camera, bool colored) {
+ChosenTechnique choose_technique(std::string_view text, const Camera& camera, const Occasion& occasion) {
   if (text == "auto") {
-    // Shading a flat camera's picture is what GPUs are made for. Nothing else needs one, and opening it takes longer
-    // than a picture.
-    return find(colored && planar_draws(camera) ? planar_technique.info.name : visibility_technique.info.name);
+    const bool without_gl = !occasion.shaded || (occasion.plain && !occasion.gpu);
+    if (without_gl) return find("visibility:cpu");
+    // A flat camera's picture is what GPUs are made for.
+    return find(planar_draws(camera) ? "planar" : "visibility:resolve");
   }
   const ChosenTechnique chosen = find(text);
   if (chosen.needs_project() && camera.lens() == nullptr) {
@@ -96,6 +94,11 @@ ChosenTechnique choose_technique(std::string_view text, const Camera& camera, bo
     if (const auto why = chosen.entry->refusal(camera)) throw CommandError("technique '{}' {}", chosen.name(), *why);
   }
   return chosen;
+}
+
+ChosenTechnique with_gl(const ChosenTechnique& chosen) {
+  const VariantInfo* info = variant_info(chosen);
+  return info != nullptr && info->without_gl ? ChosenTechnique{chosen.entry, info->with_gl} : chosen;
 }
 
 ChosenTechnique choose_depth_technique(const Camera& camera) {

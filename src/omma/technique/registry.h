@@ -16,12 +16,22 @@ struct ChosenTechnique {
   std::string variant;  ///< empty when the technique has none
   std::string name() const { return variant.empty() ? entry->info.name : entry->info.name + ":" + variant; }
   bool needs_project() const;     ///< cannot draw a ray map
-  bool draws_without_gl() const;  ///< every channel but color
+  bool draws_without_gl() const;  ///< what SoftwareRenderer does
 };
 
-/// The technique of a text, `auto` included, for pictures with or without colour. Throws CommandError with the nearest
-/// name, or when the technique cannot draw the camera.
-ChosenTechnique choose_technique(std::string_view text, const Camera& camera, bool colored = true);
+/// What `auto` goes by.
+struct Occasion {
+  bool shaded = true;  ///< colour is asked for
+  bool plain = true;   ///< without effects, shadows and reflections, which need OpenGL
+  bool gpu = false;    ///< OpenGL is at hand, and not by software
+};
+
+/// The technique of a text, `auto` included. Throws CommandError with the nearest name, or when the technique cannot
+/// draw the camera.
+ChosenTechnique choose_technique(std::string_view text, const Camera& camera, const Occasion& occasion = {});
+
+/// What draws the same by OpenGL.
+ChosenTechnique with_gl(const ChosenTechnique& chosen);
 
 /// What can be drawn where there is no OpenGL, as a sentence.
 std::string what_works_without_gl();

@@ -5,9 +5,9 @@
 #include <thread>
 
 #include "omma/base/error.h"
+#include "omma/software/software_renderer.h"
 #include "omma/technique/gpu_renderer.h"
 #include "omma/technique/registry.h"
-#include "omma/visibility/channel_renderer.h"
 #include "omma/visibility/find_blocks.h"
 
 namespace omma {
@@ -42,17 +42,32 @@ struct Renderer::Parts {
   /// Each made when the first picture needs it.
   std::unique_ptr<GpuRenderer> gpu;
   bool gpu_has_scene = false;
-  std::unique_ptr<ChannelRenderer> channels;
+  std::optional<bool> gpu_at_hand;
+  std::unique_ptr<SoftwareRenderer> software;
 
   const Scene& need_scene(const char* what) const {
     if (scene == nullptr) throw CommandError("there is no scene to {}; call Renderer::load first", what);
     return *scene;
   }
   void open_gl();
+  /// Opens a context to see.
+  bool has_gpu();
   std::map<Channel, Image> render_without_gl(const Camera& camera, const glm::dmat4& worldFromCamera,
                                              std::span<const Channel> wanted, const RenderOptions& options,
                                              RenderStats& stats);
 };
+
+bool Renderer::Parts::has_gpu() {
+  if (!gpu_at_hand) {
+    try {
+      if (gpu == nullptr) gpu = std::make_unique<GpuRenderer>();
+      gpu_at_hand = !gpu->is_software();
+    } catch (const MachineError&) {
+      gpu_at_hand = false;
+    }
+  }
+  return *gpu_at_hand;
+}
 
 void Renderer::Parts::open_gl() {
   if (gpu == nullptr) gpu = std::make_unique<GpuRenderer>();
@@ -65,14 +80,21 @@ void Renderer::Parts::open_gl() {
 std::map<Channel, Image> Renderer::Parts::render_without_gl(const Camera& camera, const glm::dmat4& worldFromCamera,
                                                             std::span<const Channel> wanted,
                                                             const RenderOptions& options, RenderStats& stats) {
-  if (channels == nullptr) stats.setup_ms = milliseconds([&] { channels = std::make_unique<ChannelRenderer>(*scene); });
-  ChannelStats took;
-  auto pictures = channels->render(camera, worldFromCamera, wanted, options.tile, &took);
+  if (software == nullptr) {
+    stats.setup_ms += milliseconds([&] { software = std::make_unique<SoftwareRenderer>(*scene); });
+  }
+  SoftwareStats took;
+  const SoftwareOptions how{.samples = options.samples,
+                            .anisotropic = options.filter == Filter::anisotropic,
+                            .background = options.background,
+                            .tile = options.tile};
+  auto pictures = software->render(camera, worldFromCamera, wanted, how, &took);
   stats.renderer =
       fmt::format("the processor ({}, {} threads)", simd_targets().front(), std::thread::hardware_concurrency());
   stats.buffer_bytes = took.bytes;
   stats.tiles = took.tiles;
-  stats.stage_ms = {{"ray tree", took.rays_ms}, {"find", took.find_ms}};
+  stats.passes = took.passes;
+  stats.stage_ms = std::move(took.stage_ms);
   return pictures;
 }
 
@@ -85,7 +107,7 @@ void Renderer::open_gl() { parts_->open_gl(); }
 
 void Renderer::load(const Scene& scene) {
   parts_->scene = &scene;
-  parts_->channels.reset();
+  parts_->software.reset();
   parts_->gpu_has_scene = false;
   if (parts_->gpu != nullptr) parts_->open_gl();
 }
@@ -93,7 +115,7 @@ void Renderer::load(const Scene& scene) {
 void Renderer::update() {
   parts_->need_scene("update");
   if (parts_->gpu_has_scene) parts_->gpu->update();
-  if (parts_->channels != nullptr) parts_->channels->update();
+  if (parts_->software != nullptr) parts_->software->update();
 }
 
 std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4& worldFromCamera,
@@ -101,25 +123,40 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
                                           RenderStats* stats) {
   const Scene& scene = parts_->need_scene("render");
   check(wanted, options);
-  const bool shaded = std::any_of(wanted.begin(), wanted.end(), is_shaded);
-  const ChosenTechnique chosen = choose_technique(options.technique, camera, shaded);
-  check_show(options.show, chosen);
-  effects_of(options);
   RenderStats took;
-  took.technique = chosen.name();
+  Occasion occasion;
+  occasion.shaded = std::find(wanted.begin(), wanted.end(), Channel::color) != wanted.end();
+  occasion.plain = effects_of(options).empty() && options.show.empty() && options.shadows == Shadows::off &&
+                   !options.reflect.has_value();
+  if (options.technique == "auto" && occasion.shaded && occasion.plain) {
+    took.setup_ms += milliseconds([&] { occasion.gpu = parts_->has_gpu(); });
+  }
+  ChosenTechnique chosen = choose_technique(options.technique, camera, occasion);
+  check_show(options.show, chosen);
   took.triangles = scene.triangle_count();
+  took.technique = chosen.name();
+  std::vector<Channel> by_gl, without_gl;
+  for (const Channel channel : wanted) {
+    const bool needs_gl = !chosen.draws_without_gl() || (channel == Channel::color && !occasion.plain);
+    (needs_gl ? by_gl : without_gl).push_back(channel);
+  }
   std::map<Channel, Image> pictures;
-  if (!shaded && chosen.draws_without_gl()) {
-    pictures = parts_->render_without_gl(camera, worldFromCamera, wanted, options, took);
-  } else {
-    took.setup_ms = milliseconds([&] {
+  if (!without_gl.empty()) {
+    pictures = parts_->render_without_gl(camera, worldFromCamera, without_gl, options, took);
+  }
+  if (!by_gl.empty()) {
+    took.setup_ms += milliseconds([&] {
       try {
         parts_->open_gl();
       } catch (const MachineError& error) {
         throw MachineError("{}\n{}", error.what(), what_works_without_gl());
       }
     });
-    pictures = parts_->gpu->render(camera, worldFromCamera, wanted, options, chosen, took);
+    chosen = with_gl(chosen);
+    took.technique = chosen.name();
+    const auto before = std::move(took.stage_ms);
+    pictures.merge(parts_->gpu->render(camera, worldFromCamera, by_gl, options, chosen, took));
+    took.stage_ms.insert(took.stage_ms.begin(), before.begin(), before.end());
   }
   if (stats != nullptr) *stats = std::move(took);
   return pictures;

@@ -59,6 +59,36 @@ void Finder::each_block(const RayTree& rays, Solid solid,
        [&](const RayBlock& block, const BlockPicture& picture, std::span<const BlockLayer>) { each(block, picture); });
 }
 
+void Finder::each_square(const RayTree& rays, const std::function<void(std::span<const FoundBlock>)>& each) const {
+  const auto samples = size_t(rays.samples());
+  const size_t squares = rays.blocks().size() / samples, at_once = std::max<size_t>(1, blocks_at_once / samples);
+  const BlockQuery opaque{.scene = &scene_}, blended{.scene = &scene_, .collect = true};
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, squares, at_once), [&](const tbb::blocked_range<size_t>& range) {
+    const std::span<const RayBlock> blocks =
+        std::span(rays.blocks()).subspan(range.begin() * samples, range.size() * samples);
+    const std::span<const BlockOrigins> origins =
+        rays.origins().empty() ? std::span(rays.origins())
+                               : std::span(rays.origins()).subspan(range.begin() * samples, blocks.size());
+    std::vector<FoundBlock> found(blocks.size());
+    const auto found_of = [&](const RayBlock& block) -> FoundBlock& { return found[size_t(&block - blocks.data())]; };
+    find_blocks(opaque, blocks, origins, {},
+                [&](const RayBlock& block, const BlockPicture& picture, std::span<const BlockLayer>) {
+                  found_of(block).block = &block;
+                  found_of(block).picture = picture;
+                });
+    if (scene_.has_blending()) {
+      find_blocks(
+          blended, blocks, origins,
+          [&](const RayBlock& block, BlockPicture& picture) { picture = found_of(block).picture; },
+          [&](const RayBlock& block, const BlockPicture&, std::span<const BlockLayer> layers) {
+            found_of(block).layers.assign(layers.begin(), layers.end());
+          });
+    }
+    for (size_t i = 0; i < found.size(); ++i) found[i].border = &rays.borders()[range.begin() + i / samples];
+    for (size_t i = 0; i < found.size(); i += samples) each(std::span(found).subspan(i, samples));
+  });
+}
+
 void Finder::nearest(const RayTree& rays, Solid solid, std::span<glm::uvec2> triangles,
                      std::span<float> distances) const {
   each_blank_row(rays, [&](size_t first, size_t count) {

@@ -18,6 +18,14 @@
 
 namespace omma {
 
+/// What the rays of a block meet.
+struct FoundBlock {
+  const RayBlock* block = nullptr;
+  const SquareBorder* border = nullptr;  ///< of its square
+  BlockPicture picture;
+  std::vector<BlockLayer> layers;  ///< blended surfaces before what is in the picture, in no order
+};
+
 class Finder {
  public:
   /// Sorts every mesh into clusters. The scene must outlive this object.
@@ -37,6 +45,10 @@ class Finder {
   /// Calls `each`, on several threads at once, for every block in which there is a ray, with what its rays meet.
   void each_block(const RayTree& rays, Solid solid,
                   const std::function<void(const RayBlock&, const BlockPicture&)>& each) const;
+
+  /// Calls `each`, on several threads at once, for every square of pixels in which there is a ray, with a block for
+  /// each of its samples, blended surfaces apart from the others. Runs on all cores.
+  void each_square(const RayTree& rays, const std::function<void(std::span<const FoundBlock>)>& each) const;
 
   /// All blended surfaces nearer than `distances` on each ray, nearest first.
   std::vector<std::vector<RayHit>> blended(const RayTree& rays, std::span<const float> distances) const;

@@ -48,6 +48,12 @@ void each_ray(const RayBlock& block, int leaf, const Each& each) {
   for (int ray = 0; ray < 16; ++ray) each({block.x[leaf][ray], block.y[leaf][ray], block.z[leaf][ray]});
 }
 
+/// Zero beyond the image.
+glm::vec3 direction_at(const RayMap& rays, int x, int y) {
+  const bool inside = x >= 0 && y >= 0 && x < rays.size.width && y < rays.size.height;
+  return inside ? rays.directions[size_t(y) * size_t(rays.size.width) + size_t(x)] : glm::vec3(0.0f);
+}
+
 /// False when there is no ray.
 bool fill(const RayMap& rays, RayBlock& block) {
   block.leaf_mask = 0;
@@ -56,9 +62,8 @@ bool fill(const RayMap& rays, RayBlock& block) {
     ConeFitter part;
     block.rays[leaf] = 0;
     for (int ray = 0; ray < 16; ++ray) {
-      const int x = block.pixel_x + RayBlock::x_of(leaf, ray), y = block.pixel_y + RayBlock::y_of(leaf, ray);
-      const bool inside = x < rays.size.width && y < rays.size.height;
-      const glm::vec3 d = inside ? rays.directions[size_t(y) * size_t(rays.size.width) + size_t(x)] : glm::vec3(0.0f);
+      const glm::vec3 d =
+          direction_at(rays, block.pixel_x + RayBlock::x_of(leaf, ray), block.pixel_y + RayBlock::y_of(leaf, ray));
       block.x[leaf][ray] = d.x;
       block.y[leaf][ray] = d.y;
       block.z[leaf][ray] = d.z;
@@ -84,6 +89,23 @@ bool fill(const RayMap& rays, RayBlock& block) {
   block.cone = whole.cone();
   block.grid = fit_pixel_grid(block);
   return true;
+}
+
+SquareBorder border_of(const RayMap& rays, const RayBlock& block) {
+  SquareBorder border;
+  const auto put = [&](SquareBorder::Side side, int i, int x, int y) {
+    const glm::vec3 d = direction_at(rays, block.pixel_x + x, block.pixel_y + y);
+    border.x[side][i] = d.x;
+    border.y[side][i] = d.y;
+    border.z[side][i] = d.z;
+  };
+  for (int i = 0; i < RayBlock::side; ++i) {
+    put(SquareBorder::left, i, -1, i);
+    put(SquareBorder::right, i, RayBlock::side, i);
+    put(SquareBorder::above, i, i, -1);
+    put(SquareBorder::below, i, i, RayBlock::side);
+  }
+  return border;
 }
 
 void check(const RayMap& rays, std::span<const glm::vec3> origins) {
@@ -145,8 +167,14 @@ uint64_t interleaved(int x, int y) {
 
 }  // namespace
 
-RayTree::RayTree(const RayMap& rays, std::span<const glm::vec3> origins) : size_(rays.size) {
+RayTree::RayTree(const RayMap& rays, std::span<const glm::vec3> origins) : RayTree(std::span(&rays, 1)) {
   check(rays, origins);
+  if (origins.empty()) return;
+  origins_.resize(blocks_.size());
+  tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t i) { fill(rays.size, origins, blocks_[i], origins_[i]); });
+}
+
+RayTree::RayTree(std::span<const RayMap> samples) : size_(samples.front().size), samples_(int(samples.size())) {
   const int across = (size_.width + RayBlock::side - 1) / RayBlock::side;
   const int down = (size_.height + RayBlock::side - 1) / RayBlock::side;
   std::vector<glm::ivec2> places;
@@ -156,25 +184,30 @@ RayTree::RayTree(const RayMap& rays, std::span<const glm::vec3> origins) : size_
   // Blocks that are done one after another see the same triangles, while these are still in the processor's caches.
   std::sort(places.begin(), places.end(),
             [](const glm::ivec2& a, const glm::ivec2& b) { return interleaved(a.x, a.y) < interleaved(b.x, b.y); });
-  blocks_.resize(places.size());
+  const size_t count = samples.size();
+  blocks_.resize(places.size() * count);
   std::vector<char> filled(places.size());
   tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
-    blocks_[i].pixel_x = places[i].x * RayBlock::side;
-    blocks_[i].pixel_y = places[i].y * RayBlock::side;
-    filled[i] = fill(rays, blocks_[i]);
+    for (size_t s = 0; s < count; ++s) {
+      RayBlock& block = blocks_[i * count + s];
+      block.pixel_x = places[i].x * RayBlock::side;
+      block.pixel_y = places[i].y * RayBlock::side;
+      filled[i] |= char(fill(samples[s], block));
+    }
   });
   size_t kept = 0;
-  for (size_t i = 0; i < blocks_.size(); ++i) {
+  for (size_t i = 0; i < places.size(); ++i) {
     if (filled[i]) {
-      blocks_[kept++] = blocks_[i];
+      std::copy_n(blocks_.begin() + ptrdiff_t(i * count), count, blocks_.begin() + ptrdiff_t(kept));
+      kept += count;
     } else {
-      blank_.emplace_back(blocks_[i].pixel_x, blocks_[i].pixel_y);
+      blank_.push_back(places[i] * RayBlock::side);
     }
   }
   blocks_.resize(kept);
-  if (origins.empty()) return;
-  origins_.resize(kept);
-  tbb::parallel_for(size_t{0}, kept, [&](size_t i) { fill(rays.size, origins, blocks_[i], origins_[i]); });
+  borders_.resize(kept / count);
+  tbb::parallel_for(size_t{0}, borders_.size(),
+                    [&](size_t i) { borders_[i] = border_of(samples.front(), blocks_[i * count]); });
 }
 
 }  // namespace omma

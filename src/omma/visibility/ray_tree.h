@@ -37,6 +37,12 @@ struct alignas(64) RayBlock {
   static int y_of(int leaf, int ray) { return leaf / 4 * leaf_side + ray / leaf_side; }
 };
 
+/// The rays around a square of pixels: what tells how rays change from pixel to pixel at its border. Zero for no ray.
+struct SquareBorder {
+  enum Side { left, right, above, below };
+  float x[4][RayBlock::side], y[4][RayBlock::side], z[4][RayBlock::side];  ///< by side; from the top or from the left
+};
+
 /// Where the rays of a block begin, metres in the camera frame. The block sees the scene from its apex, in the middle
 /// of its rays' beginnings; they lie within `radius` of it.
 struct alignas(64) BlockOrigins {
@@ -56,19 +62,31 @@ class RayTree {
   /// near each other are found soonest. Throws CommandError for origins that are not as many or not finite. Runs on all
   /// cores.
   explicit RayTree(const RayMap& rays, std::span<const glm::vec3> origins = {});
+  /// Several rays a pixel, as many as `samples`, all of one size; a square of pixels has a block for each, one after
+  /// another.
+  explicit RayTree(std::span<const RayMap> samples);
 
   ImageSize size() const { return size_; }
-  /// Those in which there is a ray, neighbours near to each other.
+  /// Rays a pixel.
+  int samples() const { return samples_; }
+  /// Those of the squares in which there is a ray, neighbours near to each other.
   const std::vector<RayBlock>& blocks() const { return blocks_; }
-  /// The first pixels of those in which there is none.
+  /// By squares: around the first sample's rays.
+  const std::vector<SquareBorder>& borders() const { return borders_; }
+  /// The first pixels of the squares in which there is none.
   const std::vector<glm::ivec2>& blank() const { return blank_; }
   /// By the blocks; empty where all rays begin at the camera's centre.
   const std::vector<BlockOrigins>& origins() const { return origins_; }
-  size_t bytes() const { return blocks_.size() * sizeof(RayBlock) + origins_.size() * sizeof(BlockOrigins); }
+  size_t bytes() const {
+    return blocks_.size() * sizeof(RayBlock) + borders_.size() * sizeof(SquareBorder) +
+           origins_.size() * sizeof(BlockOrigins);
+  }
 
  private:
   ImageSize size_;
+  int samples_ = 1;
   std::vector<RayBlock> blocks_;
+  std::vector<SquareBorder> borders_;
   std::vector<glm::ivec2> blank_;
   std::vector<BlockOrigins> origins_;
 };

@@ -1,6 +1,7 @@
 #include "omma/technique/shadow/shadow_maps.h"
 
 #include "omma/base/error.h"
+#include "omma/scene/lights.h"
 #include "omma/technique/registry.h"
 
 namespace omma {
@@ -20,7 +21,7 @@ void ShadowMaps::use(Shadows kind, int size) {
       throw MachineError("a shadow map of {} texels is too large for this driver, which draws up to {}", size, most);
     }
     std::vector<ShadowLayer> layers =
-        plan_shadow_layers(scene_.lights(), boxes_of_triangles(scene_.scene()), kind, size);
+        plan_shadow_layers(lights_of(scene_.scene()), boxes_of_triangles(scene_.scene()), kind, size);
     GLint most_layers = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
     if (layers.size() > size_t(most_layers) || layers.size() * size_t(size) * size_t(size) * 4 > most_bytes) {

@@ -73,8 +73,10 @@ const TechniqueEntry visibility_technique{
      .exact = true,
      .needs_project = false,
      .variants = {{.name = "cpu",
-                   .description = "on the processor, with SIMD and all cores; OpenGL for colour alone",
-                   .without_gl = true},
+                   .description = "on the processor, with SIMD and all cores, colour too",
+                   .without_gl = true,
+                   .with_gl = "resolve"},
+                  {.name = "resolve", .description = "on the processor; OpenGL gives the triangles their colours"},
                   {.name = "gpu", .description = "compute shaders find the triangles"}}},
     [](DrawTools& tools, const std::string& variant) -> std::unique_ptr<Technique> {
       if (variant == "gpu") return make_gpu_visibility(tools);

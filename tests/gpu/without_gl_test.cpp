@@ -1,11 +1,10 @@
-// Channels that the processor draws alone against those that OpenGL writes for the same visible triangles: where colour
-// is asked for too, technique visibility resolves all channels on the GPU.
+// What the processor draws alone against what OpenGL draws of the same visible triangles.
 #include <fmt/format.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "omma/base/error.h"
-#include "omma/visibility/channel_renderer.h"
+#include "omma/software/software_renderer.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 
@@ -68,14 +67,12 @@ const Case cases[] = {
     {"city", [] { return load_scene("city:blocks=2"); }},
 };
 
-class ChannelsWithoutGlTest : public GpuTest, public ::testing::WithParamInterface<Case> {};
+class WithoutGlTest : public GpuTest, public ::testing::WithParamInterface<Case> {};
 
-TEST_P(ChannelsWithoutGlTest, AreThoseThatOpenGlWrites) {
+TEST_P(WithoutGlTest, ChannelsAreThoseThatOpenGlWrites) {
   const Scene scene = GetParam().second();
   const glm::dmat4 pose = default_pose(scene);
   renderer().load(scene);
-  std::vector<Channel> with_color(std::begin(all_but_color), std::end(all_but_color));
-  with_color.push_back(Channel::color);
   size_t seen = 0, ids = 0, labels = 0, nothing = 0;
   double distance = 0.0, z = 0.0, position = 0.0, normal = 0.0, uv = 0.0;
   // As maps all cameras have the same rays here and there: the formulae of a driver's atan are off by more than all
@@ -83,9 +80,8 @@ TEST_P(ChannelsWithoutGlTest, AreThoseThatOpenGlWrites) {
   for (const auto& [name, lens] : all_cameras(GetParam().first == std::string("everything") ? 160 : 64)) {
     const Camera camera = as_ray_map(lens);
     RenderStats cpu_stats, gl_stats;
-    const RenderOptions options{.technique = "visibility:cpu", .samples = 1};
-    const auto cpu = renderer().render(camera, pose, all_but_color, options, &cpu_stats);
-    const auto gl = renderer().render(camera, pose, with_color, options, &gl_stats);
+    const auto cpu = renderer().render(camera, pose, all_but_color, {.technique = "visibility:cpu"}, &cpu_stats);
+    const auto gl = renderer().render(camera, pose, all_but_color, {.technique = "visibility:resolve"}, &gl_stats);
     EXPECT_TRUE(cpu_stats.renderer.starts_with("the processor")) << cpu_stats.renderer;
     EXPECT_FALSE(gl_stats.renderer.starts_with("the processor")) << gl_stats.renderer;
     const auto whole = [](const auto& pictures, Channel channel, int x, int y) {
@@ -144,7 +140,30 @@ TEST_P(ChannelsWithoutGlTest, AreThoseThatOpenGlWrites) {
   EXPECT_LT(uv, 2e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ChannelsWithoutGlTest, ::testing::ValuesIn(cases),
+TEST_P(WithoutGlTest, ColorIsThatOfOpenGl) {
+  const Scene scene = GetParam().second();
+  const glm::dmat4 pose = default_pose(scene);
+  renderer().load(scene);
+  double least = 1000.0;
+  for (const auto& [name, lens] : all_cameras(128)) {
+    const Camera camera = as_ray_map(lens);
+    for (const Filter filter : {Filter::trilinear, Filter::anisotropic}) {
+      const auto draw = [&](const char* technique) {
+        return draw_color(camera, pose, {.technique = technique, .samples = 1, .filter = filter});
+      };
+      const double decibels = psnr(draw("visibility:cpu"), draw("visibility:resolve"));
+      if (decibels < least) {
+        std::cout << fmt::format("{}, {}: {:.1f} dB\n", name, filter == Filter::trilinear ? "trilinear" : "anisotropic",
+                                 decibels);
+      }
+      least = std::min(least, decibels);
+      // Observed: 47.0; 41.6 through cube_6x1, where OpenGL interpolates between rays of a map that point apart.
+      EXPECT_GT(decibels, name.starts_with("cube") ? 40.0 : 45.0) << name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, WithoutGlTest, ::testing::ValuesIn(cases),
                          [](const auto& tested) { return test_name(tested.param.first); });
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "omma/visibility/seen_triangle.h"
+#include "omma/software/seen_triangle.h"
 
 #include <algorithm>
 

@@ -1,0 +1,103 @@
+// The files of shaders/ that say what surfaces look like, as C++: sixteen fragments of one material at a time. Included
+// once for every SIMD target, by Highway's rules.
+#if defined(OMMA_SOFTWARE_SHADER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef OMMA_SOFTWARE_SHADER_INL_H_
+#undef OMMA_SOFTWARE_SHADER_INL_H_
+#else
+#define OMMA_SOFTWARE_SHADER_INL_H_
+#endif
+
+#include <cstdint>
+#include <vector>
+
+#include "omma/software/sample_texture-inl.h"
+#include "omma/software/shade_fragments.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace omma {
+namespace HWY_NAMESPACE {
+
+/// What is global in GLSL is a member here: uniforms, textures, functions.
+class Shader {
+ public:
+  using uint = uint32_t;
+#include "common/frame.glsl"
+#include "shading/footprint.glsl"
+#include "shading/surface.glsl"
+
+  explicit Shader(const ShadedScene& scene) : anisotropic_(scene.anisotropic) {
+    frame.worldFromCamera = mat4(glm::mat4(scene.worldFromCamera));
+    frame.ambient = vec4(glm::vec4(scene.scene->ambient, 0.0f));
+    frame.background = vec4(scene.background ? glm::vec4(*scene.background, 1.0f) : glm::vec4(0.0f));
+    frame.counts.x = uint(scene.lights.size());
+    lights_ = scene.lights.data();
+  }
+
+  void set_material(const ShadedScene& scene, int index) {
+    const Material& of = scene.scene->materials[size_t(index)];
+    const auto texture = [&](int number) { return number < 0 ? nullptr : &scene.textures[size_t(number)]; };
+    base_color_texture = texture(of.base_color_texture);
+    normal_texture = texture(of.normal_texture);
+    metallic_roughness_texture = texture(of.metallic_roughness_texture);
+    emissive_texture = texture(of.emissive_texture);
+    has.base_color_texture = base_color_texture != nullptr;
+    has.normal_texture = normal_texture != nullptr;
+    has.metallic_roughness_texture = metallic_roughness_texture != nullptr;
+    has.emissive_texture = emissive_texture != nullptr;
+    has.blended = of.alpha == Material::Alpha::blend;
+    has.unlit = of.unlit;
+    material.base_color = vec4(of.base_color);
+    material.emissive = vec4(glm::vec4(of.emissive, of.normal_scale));
+    material.parameters = vec4(glm::vec4(of.metallic, of.roughness, of.alpha_cutoff, 0.0f));
+  }
+
+  bool needs_tangents() const { return has.normal_texture; }
+
+#include "shading/material.glsl"
+
+ private:
+  LightRecord light_of(uint number) const {
+    const auto& light = lights_[number];
+    return {vec4(light.position), vec4(light.direction), vec4(light.color), vec4(light.cone)};
+  }
+  int kind_of_light(uint number) const { return int(lights_[number].direction.w); }
+
+  /// As in shading/texture.glsl.
+  HWY_NOINLINE vec4 sample_filtered(const MipTexture* texture, const vec2& uv, const vec2& dx, const vec2& dy) {
+    const vec2 size{real(float(texture->width)), real(float(texture->height))};
+    const vec2 across = bounded(dx), down = bounded(dy);
+    if (!anisotropic_) {
+      return sample_texture(*texture, uv, log2(max(max(length(across * size), length(down * size)), 1e-6)));
+    }
+    const Footprint footprint = footprint_of(across, down, size);
+    const real share = real(1.0f) / footprint.taps;
+    vec4 sum(real(0.0f));
+    for (float i = 0.5f;; i += 1.0f) {
+      const truth taken = real(i) < footprint.taps;
+      if (bits(taken) == 0) return sum * share;
+      const vec4 tap = sample_texture(*texture, uv + footprint.axis * (real(i) * share - 0.5), footprint.lod);
+      sum = choose(taken, sum + tap, sum);
+    }
+  }
+
+  struct {
+    mat4 worldFromCamera;
+    vec4 ambient, background;
+    struct {
+      uint x;
+    } counts;
+  } frame;
+  struct {
+    vec4 base_color, emissive, parameters;
+  } material;
+  MaterialParts has;
+  const MipTexture *base_color_texture, *normal_texture, *metallic_roughness_texture, *emissive_texture;
+  const omma::LightRecord* lights_;
+  bool anisotropic_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace omma
+HWY_AFTER_NAMESPACE();
+
+#endif

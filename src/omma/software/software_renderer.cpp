@@ -1,0 +1,180 @@
+#include "omma/software/software_renderer.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "omma/base/error.h"
+#include "omma/camera/pieces/piece_set.h"
+#include "omma/camera/ray_bundle.h"
+#include "omma/math/spread.h"
+#include "omma/math/tiles.h"
+#include "omma/software/channel_writer.h"
+#include "omma/software/shade_fragments.h"
+
+namespace omma {
+namespace {
+
+/// Rays and their tree take some 26 bytes a ray; so many are found at once, and twice as many kept for the next
+/// picture.
+constexpr size_t most_rays = size_t{1} << 25;
+/// More samples come in passes: a square of pixels and what its rays meet should stay in the processor's caches.
+constexpr size_t most_samples = 16;
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(SoftwareStats& stats) : stats_(stats) {}
+  /// What has passed since the last call was `stage`'s.
+  void add_to(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    const auto found = std::find_if(stats_.stage_ms.begin(), stats_.stage_ms.end(),
+                                    [&](const auto& entry) { return entry.first == stage; });
+    if (found == stats_.stage_ms.end()) {
+      stats_.stage_ms.emplace_back(stage, ms);
+    } else {
+      found->second += ms;
+    }
+  }
+
+ private:
+  SoftwareStats& stats_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Image make_image(const ChannelInfo& info, ImageSize size) {
+  if (info.integer) return IntImage(size, info.components, int32_t(info.nothing));
+  return FloatImage(size, info.components, info.nothing);
+}
+
+/// On the grid of pieces, where it is decided in whole numbers whose a sample is.
+glm::dvec2 shift_of_sample(int i) { return glm::round(spread_point(i) * double(piece_grid)) / double(piece_grid); }
+
+/// Squares of so many rays, whole blocks along their sides.
+int good_tile(size_t samples) {
+  const int side = int(std::sqrt(double(most_rays / samples)));
+  return side / RayBlock::side * RayBlock::side;
+}
+
+std::vector<SeenInstance> seen_instances(const Scene& scene, const glm::dmat4& cameraFromWorld) {
+  std::vector<SeenInstance> instances;
+  instances.reserve(scene.instances.size());
+  for (const Instance& instance : scene.instances) instances.emplace_back(scene, instance, cameraFromWorld);
+  return instances;
+}
+
+}  // namespace
+
+const RayTree& SoftwareRenderer::rays_of_tile(const Camera& camera, const PixelRect& tile,
+                                              const std::vector<glm::dvec2>& shifts) {
+  for (const Rays& rays : rays_) {
+    if (rays.tile == tile && rays.shifts == shifts && rays.camera == camera) return rays.tree;
+  }
+  const auto count = [](ImageSize size) { return size_t(size.width) * size_t(size.height); };
+  size_t kept = 0;
+  for (const Rays& rays : rays_) kept += count(rays.tree.size()) * rays.shifts.size();
+  const size_t more = count({tile.width(), tile.height()}) * shifts.size();
+  if (!rays_.empty() && (kept + more > 2 * most_rays || rays_.front().camera != camera)) rays_.clear();
+  std::vector<RayMap> samples;
+  for (const glm::dvec2& shift : shifts) samples.push_back(rays_of(camera, tile, shift));
+  rays_.push_back({camera, tile, shifts, RayTree(samples)});
+  return rays_.back().tree;
+}
+
+void SoftwareRenderer::prepare_textures() {
+  if (!textures_.empty() || scene_->textures.empty()) return;
+  std::vector<std::optional<MipTexture>> made(scene_->textures.size());
+  tbb::parallel_for(size_t{0}, made.size(), [&](size_t i) { made[i].emplace(scene_->textures[i]); });
+  for (std::optional<MipTexture>& texture : made) textures_.push_back(std::move(*texture));
+}
+
+void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldFromCamera,
+                                  const SoftwareOptions& options, FloatImage& image, SoftwareStats& stats) {
+  Stopwatch watch(stats);
+  prepare_textures();
+  const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
+  ShadedScene shaded{.scene = scene_, .worldFromCamera = worldFromCamera, .lights = {}, .textures = textures_};
+  shaded.background = options.background;
+  shaded.anisotropic = options.anisotropic;
+  for (const Light& light : lights_of(*scene_)) shaded.lights.push_back(light_record(light, cameraFromWorld));
+  std::vector<RecordInstance> instances;
+  for (const SeenInstance& seen : seen_instances(*scene_, cameraFromWorld)) {
+    instances.emplace_back(seen, glm::dmat3(cameraFromWorld));
+  }
+  watch.add_to("prepare");
+  finder_.set_view(worldFromCamera);
+  watch.add_to("place");
+
+  tbb::enumerable_thread_specific<Fragments> scratch([&] { return Fragments(instances); });
+  const auto samples = size_t(options.samples);
+  const std::vector<PixelRect> tiles =
+      tiles_of(camera.size(), options.tile > 0 ? options.tile : good_tile(std::min(samples, most_samples)));
+  for (size_t first = 0; first < samples; first += most_samples, ++stats.passes) {
+    const size_t count = std::min(most_samples, samples - first);
+    const float share = float(count) / float(samples);
+    std::vector<glm::dvec2> shifts;
+    for (size_t i = first; i < first + count; ++i)
+      shifts.push_back(samples > 1 ? shift_of_sample(int(i)) : glm::dvec2(0));
+    for (const PixelRect& tile : tiles) {
+      const RayTree& rays = rays_of_tile(camera, tile, shifts);
+      watch.add_to("ray tree");
+      finder_.each_square(rays, [&](std::span<const FoundBlock> found) {
+        Fragments& fragments = scratch.local();
+        fragments.collect(found);
+        const RayBlock& block = *found.front().block;
+        shade_fragments(shaded, block, *found.front().border, fragments);
+        fragments.resolve(share, image, {tile.x0 + block.pixel_x, tile.y0 + block.pixel_y});
+      });
+      watch.add_to("find and shade");
+    }
+    stats.tiles += first == 0 ? int(tiles.size()) : 0;
+  }
+}
+
+void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, int tile,
+                                     std::map<Channel, Image>& images, SoftwareStats& stats) {
+  Stopwatch watch(stats);
+  finder_.set_view(worldFromCamera);
+  watch.add_to("place");
+  const std::vector<SeenInstance> instances = seen_instances(*scene_, glm::inverse(worldFromCamera));
+  const ChannelWriter writer(instances, worldFromCamera, images);
+  for (const PixelRect& part : tiles_of(camera.size(), tile > 0 ? tile : good_tile(1))) {
+    const RayTree& rays = rays_of_tile(camera, part, {glm::dvec2(0.0)});
+    watch.add_to("ray tree");
+    finder_.each_block(rays, Solid::labels, [&](const RayBlock& block, const BlockPicture& picture) {
+      writer.write(block, picture, {part.x0, part.y0});
+    });
+    watch.add_to("find");
+    ++stats.tiles;
+  }
+}
+
+std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const glm::dmat4& worldFromCamera,
+                                                  std::span<const Channel> wanted, const SoftwareOptions& options,
+                                                  SoftwareStats* stats) {
+  if (wanted.empty()) throw CommandError("no channel is asked for");
+  if (options.samples < 1) throw CommandError("{} samples per pixel; 1 or more make a picture", options.samples);
+  if (options.tile < 0) throw CommandError("a tile of {} pixels; 1 or more make one", options.tile);
+  SoftwareStats took;
+  std::map<Channel, Image> images;
+  for (const Channel channel : wanted) images.emplace(channel, make_image(channel_info(channel), camera.size()));
+  const auto color = images.find(Channel::color);
+  if (color != images.end()) {
+    draw_color(camera, worldFromCamera, options, std::get<FloatImage>(color->second), took);
+  }
+  if (images.size() > (color != images.end() ? 1u : 0u)) {
+    took.tiles = 0;
+    draw_channels(camera, worldFromCamera, options.tile, images, took);
+  }
+  took.bytes = finder_.bytes();
+  for (const Rays& rays : rays_) took.bytes += rays.tree.bytes();
+  for (const MipTexture& texture : textures_) took.bytes += texture.bytes();
+  if (stats != nullptr) *stats = took;
+  return images;
+}
+
+}  // namespace omma

@@ -1,0 +1,77 @@
+// Pictures by the processor alone: no OpenGL, no driver, no display.
+//
+// The values are those that the techniques draw (docs/conventions.md). Colour is that of the shaders of
+// shaders/shading, compiled for the processor; every other channel is sampled at the pixel's centre, never blended, a
+// blended surface solid where it covers at least half, masked materials with their holes.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "omma/camera/camera.h"
+#include "omma/image/image.h"
+#include "omma/scene/scene.h"
+#include "omma/software/mip_texture.h"
+#include "omma/visibility/finder.h"
+
+namespace omma {
+
+/// How colour is made.
+struct SoftwareOptions {
+  int samples = 4;                        ///< per pixel, 1 or more
+  bool anisotropic = true;                ///< up to sixteen samples of a texture along a pixel's longer axis
+  std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
+  /// Pixels along the side of what is drawn at once, 0 for a good number. It bounds the memory, not the picture.
+  int tile = 0;
+};
+
+/// What a picture took.
+struct SoftwareStats {
+  std::vector<std::pair<std::string, double>> stage_ms;  ///< wall clock
+  int tiles = 0;
+  int passes = 0;    ///< of colour
+  size_t bytes = 0;  ///< of the finder, its rays and the textures; not of the pictures
+};
+
+class SoftwareRenderer {
+ public:
+  /// Sorts the scene's triangles. The scene must outlive this object.
+  explicit SoftwareRenderer(const Scene& scene) : scene_(&scene), finder_(scene) {}
+
+  /// Takes over what set_time changed: transforms, lights and deformed vertices.
+  void update() { finder_.update(); }
+
+  /// The image of every channel asked for, of the camera's size: colour linear, lengths in metres, `normal` and
+  /// `position` in the world's frame, what channels() says where nothing is. `worldFromCamera` is rigid. Runs on all
+  /// cores; the result is the same on any number of them. Throws CommandError for no channel, no sample and a negative
+  /// tile, MachineError for a texture too large.
+  std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
+                                  std::span<const Channel> wanted, const SoftwareOptions& options = {},
+                                  SoftwareStats* stats = nullptr);
+
+ private:
+  /// The rays of a tile, one at each of `shifts` from the pixels' centres.
+  struct Rays {
+    Camera camera;
+    PixelRect tile;
+    std::vector<glm::dvec2> shifts;
+    RayTree tree;
+  };
+  const RayTree& rays_of_tile(const Camera& camera, const PixelRect& tile, const std::vector<glm::dvec2>& shifts);
+  void prepare_textures();
+  void draw_color(const Camera& camera, const glm::dmat4& worldFromCamera, const SoftwareOptions& options,
+                  FloatImage& image, SoftwareStats& stats);
+  void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, int tile,
+                     std::map<Channel, Image>& images, SoftwareStats& stats);
+
+  const Scene* scene_;
+  Finder finder_;
+  std::vector<MipTexture> textures_;
+  std::vector<Rays> rays_;  ///< of the last picture, which the next one mostly shares
+};
+
+}  // namespace omma
