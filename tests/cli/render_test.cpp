@@ -47,7 +47,7 @@ TEST_F(RenderCommand, EveryChannelIsWritten) {
 TEST_F(RenderCommand, ShadowsDarkenAndTakeTheirTime) {
   const std::vector<std::string> view{"--from", "-30,20,-45", "--to", "0,3,0", "--camera", "perspective"};
   const auto temple = [&](std::vector<std::string> more) {
-    std::vector<std::string> words{"render", "temple", "--size", "48x32", "--samples", "1"};
+    std::vector<std::string> words{"render", "temple", "--size", "48x32", "--samples", "1", "--technique", "planar"};
     words.insert(words.end(), view.begin(), view.end());
     words.insert(words.end(), more.begin(), more.end());
     return run(words);

@@ -14,7 +14,7 @@
 namespace omma {
 namespace {
 
-constexpr const char* techniques_with_shifts[] = {"raycast", "visibility:cpu", "visibility:gpu"};
+constexpr const char* techniques_with_shifts[] = {"raycast", "visibility:resolve", "visibility:gpu"};
 constexpr glm::vec3 backdrop(0.25f, 0.5f, 0.75f);
 
 /// As it is, but drawn sample by sample.
@@ -148,14 +148,14 @@ TEST_F(SeveralSamplesTest, ShadeRealScenesMuchAsSoManyPicturesDo) {
     renderer().load(slow);
     for (const auto& [name, camera] : views) {
       for (const int samples : counts) {
-        truths.push_back(look(camera, pose, {.technique = "visibility:cpu", .samples = samples}));
+        truths.push_back(look(camera, pose, {.technique = "visibility:resolve", .samples = samples}));
       }
     }
     renderer().load(scene);
     auto truth = truths.begin();
     for (const auto& [name, camera] : views) {
       for (const int samples : counts) {
-        const FloatImage found = look(camera, pose, {.technique = "visibility:cpu", .samples = samples});
+        const FloatImage found = look(camera, pose, {.technique = "visibility:resolve", .samples = samples});
         const double decibels = psnr(found, *truth++);
         std::cout << fmt::format("{} {} {}: {:.1f} dB\n", scene_name, name, samples, decibels);
         if (samples == 1) {
@@ -203,7 +203,7 @@ TEST_F(SeveralSamplesTest, GoWithShadowsEffectsAndReflections) {
   pictures[1].effects = {make_effect("hatching"), make_effect("wireframe")};
   pictures[2].reflect = ball;
   for (RenderOptions& options : pictures) {
-    options.technique = "visibility:cpu";
+    options.technique = "visibility:resolve";
     options.samples = 7;
     renderer().load(slow);
     const FloatImage expected = look(camera, glm::dmat4(1.0), options);
@@ -221,7 +221,7 @@ TEST_F(SeveralSamplesTest, FollowOneAnotherInAnySizeAndNumber) {
   const glm::dmat4 pose = pose_at({0.3, -0.2, 0.1}, 0.4, 0.2);
   const auto look_at = [&](ImageSize size, int samples) {
     return look(make_camera("equidistant:fov_deg=180", size), pose,
-                {.technique = "visibility:cpu", .samples = samples});
+                {.technique = "visibility:resolve", .samples = samples});
   };
   const FloatImage first = look_at({60, 40}, 5);
   look_at({90, 70}, 16);
