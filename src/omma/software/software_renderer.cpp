@@ -71,18 +71,20 @@ std::vector<SeenInstance> seen_instances(const Scene& scene, const glm::dmat4& c
 
 const RayTree& SoftwareRenderer::rays_of_tile(const Camera& camera, const PixelRect& tile,
                                               const std::vector<glm::dvec2>& shifts) {
-  for (const Rays& rays : rays_) {
-    if (rays.tile == tile && rays.shifts == shifts && rays.camera == camera) return rays.tree;
+  for (auto rays = rays_.begin(); rays != rays_.end(); ++rays) {
+    if (rays->tile != tile || rays->shifts != shifts || rays->camera != camera) continue;
+    rays_.splice(rays_.end(), rays_, rays);
+    return rays->tree;
   }
   const auto count = [](ImageSize size) { return size_t(size.width) * size_t(size.height); };
-  size_t kept = 0;
+  size_t kept = count({tile.width(), tile.height()}) * shifts.size();
   for (const Rays& rays : rays_) kept += count(rays.tree.size()) * rays.shifts.size();
-  const size_t more = count({tile.width(), tile.height()}) * shifts.size();
-  if (!rays_.empty() && (kept + more > 2 * most_rays || rays_.front().camera != camera)) rays_.clear();
+  for (; !rays_.empty() && kept > 2 * most_rays; rays_.pop_front()) {
+    kept -= count(rays_.front().tree.size()) * rays_.front().shifts.size();
+  }
   std::vector<RayMap> samples;
   for (const glm::dvec2& shift : shifts) samples.push_back(rays_of(camera, tile, shift));
-  rays_.push_back({camera, tile, shifts, RayTree(samples)});
-  return rays_.back().tree;
+  return rays_.emplace_back(Rays{camera, tile, shifts, RayTree(samples)}).tree;
 }
 
 void SoftwareRenderer::prepare_textures() {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <list>
 #include <map>
 #include <optional>
 #include <span>
@@ -71,7 +72,7 @@ class SoftwareRenderer {
   const Scene* scene_;
   Finder finder_;
   std::vector<MipTexture> textures_;
-  std::vector<Rays> rays_;  ///< of the last picture, which the next one mostly shares
+  std::list<Rays> rays_;  ///< of the last pictures, which the next one mostly shares; the last used last
 };
 
 }  // namespace omma

@@ -67,9 +67,8 @@ class Visibility : public Technique {
 
 const TechniqueEntry visibility_technique{
     {.name = "visibility",
-     .description =
-         "a tree of the camera's rays finds each pixel's triangle, a resolve pass shades it; exact for every "
-         "camera",
+     .description = "a tree of the camera's rays finds the triangle that each pixel sees; exact for every "
+                    "camera",
      .exact = true,
      .needs_project = false,
      .variants = {{.name = "cpu",
