@@ -14,34 +14,22 @@
 #include <limits>
 #include <vector>
 
-#include <hwy/cache_control.h>
-
 #include "omma/scene/coverage.h"
 #include "omma/visibility/block_sight-inl.h"
 #include "omma/visibility/find_blocks.h"
+#include "omma/visibility/pending-inl.h"
 #include "omma/visibility/turned_cluster-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace omma {
 namespace HWY_NAMESPACE {
 
-/// A child of a node that is still to be visited.
-struct Pending {
-  const BoxNode* node;
-  const PlacedBody* body;  ///< the tree over bodies has a frame of its own
-  uint32_t lane;
-  float near;  ///< metres, at most what any of its points is away
-};
-
 /// `has_origins`: rays begin beside the apex of their block, which stands in for the camera's centre. A triangle in
 /// whose plane some of them may begin is seen edge-on, as far as sides and distances go.
 template <bool has_origins>
 class BlockFinder {
  public:
-  explicit BlockFinder(const BlockQuery& query) : query_(query) {
-    // Each node on the way down leaves at most its other children behind.
-    pending_.resize(size_t(query.scene->depth() + 1) * BoxNode::width);
-  }
+  explicit BlockFinder(const BlockQuery& query) : query_(query), pending_(query.scene->depth()) {}
 
   /// `origins` is null where rays have none.
   void find(const RayBlock& block, const BlockOrigins* origins, BlockPicture& picture,
@@ -58,10 +46,10 @@ class BlockFinder {
     }
     farthest_of_block_ = least(load(farthest_));
     if (top.nodes.empty()) return;
-    count_ = 0;
+    pending_.clear();
     push_children(top.nodes[0], query_.scene->top_frame());
-    while (count_ > 0) {
-      const Pending next = pending_[--count_];
+    while (!pending_.empty()) {
+      const Pending next = pending_.pop();
       if (next.near * farthest_of_block_ > 1.0f + slack) continue;
       const uint32_t child = next.node->child[next.lane];
       if (!(child & BoxNode::leaf)) {
@@ -91,7 +79,7 @@ class BlockFinder {
     store_where(rays, meets_nothing, picture_->instance[leaf]);
   }
 
-  /// Those that the block may see, the farthest first.
+  /// Those that the block may see.
   HWY_INLINE void push_children(const BoxNode& node, const PlacedBody& body) {
     if (!sight_.is_for(body)) sight_.look(*block_, body, apex_of<has_origins>(body, origins_));
     alignas(64) float near[16];
@@ -99,27 +87,8 @@ class BlockFinder {
     const Mask meets = sight_.may_meet({load(node.centre[0]), load(node.centre[1]), load(node.centre[2])},
                                        {load(node.half[0]), load(node.half[1]), load(node.half[2])}, near_v);
     const Mask before = near_v * all(farthest_of_block_) <= all(1.0f + slack);
-    uint32_t left = bits(meets & before) & ((1u << node.count) - 1u);
     store(near_v, near);
-    const size_t first = count_;
-    for (; left != 0; left &= left - 1) {
-      const auto lane = uint32_t(std::countr_zero(left));
-      size_t place = count_++;
-      for (; place > first && pending_[place - 1].near < near[lane]; --place) pending_[place] = pending_[place - 1];
-      pending_[place] = {&node, &body, lane, near[lane]};
-      prefetch(body, node.child[lane]);
-    }
-  }
-
-  /// What is pending will be wanted soon, and large scenes lie far from the processor.
-  static void prefetch(const PlacedBody& body, uint32_t child) {
-    constexpr size_t line = 64;
-    const bool is_leaf = child & BoxNode::leaf;
-    if (is_leaf && body.clusters == nullptr) return;
-    const auto* from = is_leaf ? reinterpret_cast<const char*>(&body.clusters[child & ~BoxNode::leaf])
-                               : reinterpret_cast<const char*>(&body.nodes[child]);
-    const size_t size = is_leaf ? sizeof(Cluster) : sizeof(BoxNode);
-    for (size_t offset = 0; offset < size; offset += line) hwy::Prefetch(from + offset);
+    pending_.push(node, body, bits(meets & before) & ((1u << node.count) - 1u), near);
   }
 
   HWY_INLINE void visit_cluster(const BoxNode& node, uint32_t lane, const PlacedBody& body, const PlacedPart& part,
@@ -281,8 +250,7 @@ class BlockFinder {
   const BlockOrigins* origins_ = nullptr;
   BlockPicture* picture_ = nullptr;
   std::vector<BlockLayer>* layers_ = nullptr;
-  std::vector<Pending> pending_;
-  size_t count_ = 0;
+  PendingStack pending_;
   BlockSight sight_;
   TurnedCluster<has_origins> turned_;
   alignas(64) float farthest_[16] = {};  ///< inverse distance of the farthest thing that a leaf's rays see
