@@ -100,6 +100,23 @@ TEST(SoftwareColorTest, SamplesAreTheAverageOfPicturesOfOneSample) {
   }
 }
 
+TEST(SoftwareColorTest, ATriangleOfAPixelIsShadedOnce) {
+  SceneMaker maker;
+  maker.place(maker.add(make_pane(-2.0f, 1.0f, maker.add(unlit({1, 0, 0, 1})))));
+  const Scene scene = maker.finish();
+  SoftwareRenderer renderer(scene);
+  const Camera camera = make_camera("equidistant:fov_deg=120", ImageSize{64, 64});
+  SoftwareStats stats;
+  const auto pictures =
+      renderer.render(camera, glm::dmat4(1.0), color, {.samples = 16, .background = glm::vec3(0)}, &stats);
+  uint64_t red = 0;
+  for (size_t i = 0; i < 64 * 64; ++i) red += std::get<FloatImage>(pictures.at(Channel::color)).values[3 * i] > 0.0f;
+  EXPECT_GT(red, 500u);
+  // Two triangles: a pixel at their common edge may see both.
+  EXPECT_GE(stats.fragments, red);
+  EXPECT_LE(stats.fragments, red + 64);
+}
+
 TEST(SoftwareColorTest, IsTheSameOnAnyNumberOfThreadsAndInTiles) {
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   const Scene scene = make_confetti(true);

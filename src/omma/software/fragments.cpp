@@ -151,16 +151,31 @@ uint32_t Fragments::record_of(uint32_t triangle, uint32_t instance) {
 
 /// Gives every fragment its place, those of a material next to each other.
 void Fragments::place() {
+  const bool is_whole = groups_.size() == 1 && groups_.front().count == pixels && seen_.empty();
   uint32_t end = 0;
   for (FragmentGroup& group : groups_) {
     group.first = end;
     end += uint32_t((group.count + lanes - 1) / lanes * lanes);
+    if (group.material != background_material) surfaces_ += group.count;
     group.count = 0;
   }
   if (x.size() < end) {
     for (std::vector<float>* values : {&x, &y, &z, &red, &green, &blue, &coverage}) values->resize(end);
     record.resize(end);
     pixel.resize(end);
+  }
+  if (is_whole) {
+    // One material all over.
+    std::memcpy(x.data(), direction_[0], sizeof direction_[0]);
+    std::memcpy(y.data(), direction_[1], sizeof direction_[1]);
+    std::memcpy(z.data(), direction_[2], sizeof direction_[2]);
+    for (int i = 0; i < pixels; ++i) {
+      pixel[size_t(i)] = i;
+      record[size_t(i)] = kind_[i].record;
+      place_[i] = uint32_t(i);
+    }
+    groups_.front().count = pixels;
+    return;
   }
   for (int i = 0; i < pixels; ++i) {
     place_[i] = no_fragment;
@@ -191,7 +206,7 @@ uint32_t Fragments::put(const Kind& kind, int at, const glm::vec3& direction) {
   return to;
 }
 
-void Fragments::resolve(float share, FloatImage& image, glm::ivec2 corner) const {
+void Fragments::resolve(float share, bool is_first, FloatImage& image, glm::ivec2 corner) const {
   glm::vec3 sum[pixels];
   const auto color = [&](uint32_t at) { return glm::vec3(red[at], green[at], blue[at]); };
   for (int i = 0; i < pixels; ++i) sum[i] = place_[i] == no_fragment ? glm::vec3(0.0f) : share * color(place_[i]);
@@ -214,7 +229,8 @@ void Fragments::resolve(float share, FloatImage& image, glm::ivec2 corner) const
       const int across = std::min(RayBlock::leaf_side, image.size.width - left);
       float* to = image.at(left, row);
       for (int i = 0; i < across; ++i) {
-        for (int c = 0; c < 3; ++c) to[3 * i + c] += sum[leaf * 16 + first + i][c];
+        const glm::vec3& value = sum[leaf * 16 + first + i];
+        for (int c = 0; c < 3; ++c) to[3 * i + c] = is_first ? value[c] : to[3 * i + c] + value[c];
       }
     }
   }

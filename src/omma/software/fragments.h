@@ -34,6 +34,8 @@ class Fragments {
   void collect(std::span<const FoundBlock> samples);
 
   std::span<const FragmentGroup> groups() const { return groups_; }
+  /// Those collected so far that are no background.
+  uint64_t surfaces() const { return surfaces_; }
 
   /// By fragment. Directions are those of the samples' rays on the average: not quite of unit length.
   std::vector<float> x, y, z;
@@ -45,8 +47,9 @@ class Fragments {
   /// False where all vertices are white.
   bool has_colors() const { return has_colors_; }
 
-  /// Adds a share of the shaded fragments to the pixels of a square of `image`, RGB, at `corner`.
-  void resolve(float share, FloatImage& image, glm::ivec2 corner) const;
+  /// Adds a share of the shaded fragments to the pixels of a square of `image`, RGB, at `corner`; `is_first`: to
+  /// nothing.
+  void resolve(float share, bool is_first, FloatImage& image, glm::ivec2 corner) const;
 
  private:
   static constexpr uint32_t no_fragment = 0xffffffffu;
@@ -82,6 +85,7 @@ class Fragments {
 
   std::span<const RecordInstance> instances_;
   bool has_colors_ = false;
+  uint64_t surfaces_ = 0;
   size_t samples_ = 1;
 
   /// Pixels whose samples see one triangle, or the background.

@@ -72,6 +72,13 @@ class RayChanges {
   HWY_INLINE vec3 dx(const int32_t* pixels) const {
     return {gathered(changes_[0], pixels), gathered(changes_[1], pixels), gathered(changes_[2], pixels)};
   }
+  /// Of sixteen pixels one after another.
+  HWY_INLINE vec3 dx_from(int32_t pixel) const {
+    return {loaded(&changes_[0][pixel]), loaded(&changes_[1][pixel]), loaded(&changes_[2][pixel])};
+  }
+  HWY_INLINE vec3 dy_from(int32_t pixel) const {
+    return {loaded(&changes_[3][pixel]), loaded(&changes_[4][pixel]), loaded(&changes_[5][pixel])};
+  }
   HWY_INLINE vec3 dy(const int32_t* pixels) const {
     return {gathered(changes_[3], pixels), gathered(changes_[4], pixels), gathered(changes_[5], pixels)};
   }
@@ -170,33 +177,65 @@ HWY_INLINE Shader::Surface surface_of(const Records& t, bool tangents, bool colo
   return surface;
 }
 
+/// `yes` where the condition holds.
+HWY_INLINE Shader::Surface choose(const truth& condition, const Shader::Surface& yes, const Shader::Surface& no) {
+  Shader::Surface surface;
+  surface.position = choose(condition, yes.position, no.position);
+  surface.normal = choose(condition, yes.normal, no.normal);
+  surface.tangent = choose(condition, yes.tangent, no.tangent);
+  surface.uv = choose(condition, yes.uv, no.uv);
+  surface.uv_dx = choose(condition, yes.uv_dx, no.uv_dx);
+  surface.uv_dy = choose(condition, yes.uv_dy, no.uv_dy);
+  surface.color = choose(condition, yes.color, no.color);
+  return surface;
+}
+
+/// Of sixteen fragments from `at` on.
+HWY_INLINE Shader::Surface surfaces_of(const Fragments& fragments, uint32_t at, bool tangents, const vec3& direction,
+                                       const RayChanges& changes) {
+  constexpr size_t record_floats = sizeof(TriangleRecord) / sizeof(float);
+  /// Computing for all sixteen what a few are of is less work than fetching for each what its own triangle has.
+  constexpr int few = 4;
+  const int32_t* pixels = &fragments.pixel[at];
+  const uint32_t* record = &fragments.record[at];
+  bool in_a_row = true;
+  int changed = 0;
+  for (int i = 1; i < 16; ++i) {
+    in_a_row &= pixels[i] == pixels[0] + i;
+    changed += record[i] != record[i - 1];
+  }
+  const vec3 dx = in_a_row ? changes.dx_from(pixels[0]) : changes.dx(pixels);
+  const vec3 dy = in_a_row ? changes.dy_from(pixels[0]) : changes.dy(pixels);
+  const auto* records = reinterpret_cast<const float*>(fragments.records().data());
+  const auto of_one = [&](uint32_t number) HWY_ATTR {
+    return surface_of(OneRecord{records + number * record_floats}, tangents, fragments.has_colors(), direction, dx, dy);
+  };
+  if (changed <= few) {
+    Shader::Surface surface = of_one(record[0]);
+    for (int i = 1; i < 16 && changed > 0; ++i) {
+      if (record[i] == record[i - 1]) continue;
+      --changed;
+      surface = choose(from_bits(0xffffu << i & 0xffffu), of_one(record[i]), surface);
+    }
+    return surface;
+  }
+  int32_t places[16];
+  for (int i = 0; i < 16; ++i) places[i] = int32_t(record[i] * record_floats);
+  return surface_of(OwnRecords{records, places}, tangents, fragments.has_colors(), direction, dx, dy);
+}
+
 void shade_fragments(const ShadedScene& scene, const RayBlock& block, const SquareBorder& border,
                      Fragments& fragments) {
-  constexpr size_t record_floats = sizeof(TriangleRecord) / sizeof(float);
   Shader shader(scene);
   const RayChanges changes(block, border);
-  const auto* records = reinterpret_cast<const float*>(fragments.records().data());
   for (const FragmentGroup& group : fragments.groups()) {
-    if (group.material != background_material) shader.set_material(scene, group.material);
+    const bool is_background = group.material == background_material;
+    if (!is_background) shader.set_material(scene, group.material);
     for (uint32_t at = group.first; at < group.first + group.count; at += 16) {
       const vec3 direction(loaded(&fragments.x[at]), loaded(&fragments.y[at]), loaded(&fragments.z[at]));
-      vec4 color;
-      if (group.material == background_material) {
-        color = vec4(shader.background(direction), real(1.0f));
-      } else {
-        const int32_t* pixels = &fragments.pixel[at];
-        const vec3 dx = changes.dx(pixels), dy = changes.dy(pixels);
-        const uint32_t* record = &fragments.record[at];
-        int32_t places[16];
-        bool same = true;
-        for (int i = 0; i < 16; ++i) {
-          places[i] = int32_t(record[i] * record_floats);
-          same = same && record[i] == record[0];
-        }
-        const bool tangents = shader.needs_tangents(), colors = fragments.has_colors();
-        color = shader.shade(same ? surface_of(OneRecord{records + places[0]}, tangents, colors, direction, dx, dy)
-                                  : surface_of(OwnRecords{records, places}, tangents, colors, direction, dx, dy));
-      }
+      const vec4 color = is_background
+                             ? vec4(shader.background(direction), real(1.0f))
+                             : shader.shade(surfaces_of(fragments, at, shader.needs_tangents(), direction, changes));
       for (size_t k = 0; k < registers; ++k) {
         hn::StoreU(color.x.v[k], FloatTag(), &fragments.red[at + k * lanes]);
         hn::StoreU(color.y.v[k], FloatTag(), &fragments.green[at + k * lanes]);

@@ -129,12 +129,13 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
         fragments.collect(found);
         const RayBlock& block = *found.front().block;
         shade_fragments(shaded, block, *found.front().border, fragments);
-        fragments.resolve(share, image, {tile.x0 + block.pixel_x, tile.y0 + block.pixel_y});
+        fragments.resolve(share, first == 0, image, {tile.x0 + block.pixel_x, tile.y0 + block.pixel_y});
       });
       watch.add_to("find and shade");
     }
     stats.tiles += first == 0 ? int(tiles.size()) : 0;
   }
+  for (const Fragments& fragments : scratch) stats.fragments += fragments.surfaces();
 }
 
 void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, int tile,

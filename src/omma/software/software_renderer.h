@@ -34,8 +34,9 @@ struct SoftwareOptions {
 struct SoftwareStats {
   std::vector<std::pair<std::string, double>> stage_ms;  ///< wall clock
   int tiles = 0;
-  int passes = 0;    ///< of colour
-  size_t bytes = 0;  ///< of the finder, its rays and the textures; not of the pictures
+  int passes = 0;          ///< of colour
+  uint64_t fragments = 0;  ///< that were shaded, the background's apart
+  size_t bytes = 0;        ///< of the finder, its rays and the textures; not of the pictures
 };
 
 class SoftwareRenderer {

@@ -94,6 +94,8 @@ std::map<Channel, Image> Renderer::Parts::render_without_gl(const Camera& camera
   stats.buffer_bytes = took.bytes;
   stats.tiles = took.tiles;
   stats.passes = took.passes;
+  stats.samples_kept = took.fragments;
+  if (took.passes > 0) stats.fragments_shaded = took.fragments;
   stats.stage_ms = std::move(took.stage_ms);
   return pictures;
 }
