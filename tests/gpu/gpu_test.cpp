@@ -59,9 +59,10 @@ std::vector<std::string> technique_names() {
 std::vector<std::string> distinct_technique_names() {
   std::vector<std::string> names = technique_names();
   std::erase_if(names, [](const std::string& name) {
-    // PiecewiseTest.VariantsDrawTheSamePicture, BoundingShapesTest.DrawWhatRaysMeet, GpuFinderTest
+    // PiecewiseTest.VariantsDrawTheSamePicture, BoundingShapesTest.DrawWhatRaysMeet, GpuFinderTest, WithoutGlTest
     return (name.starts_with("piecewise:") && name != "piecewise:compute") ||
-           (name.starts_with("nonlinear:") && name != "nonlinear:hybrid") || name == "visibility:gpu";
+           (name.starts_with("nonlinear:") && name != "nonlinear:hybrid") || name == "visibility:gpu" ||
+           name == "visibility:resolve";
   });
   return names;
 }
