@@ -1,5 +1,5 @@
 // What a surface looks like: metallic-roughness under suns, points, spots and ambient light. Every technique calls
-// shade(); none knows what is in it. Matches MaterialBlock in shading/materials.cpp and software/shader-inl.h.
+// shade(); none knows what is in it. Matches MaterialBlock in technique/materials.cpp and software/shader-inl.h.
 #ifndef __cplusplus
 #include "common/frame.glsl"
 #include "shading/surface.glsl"

@@ -1,7 +1,7 @@
 // How much of a light reaches a surface: maps of what the light sees, compared with where the surface's own plane lies
 // on the ray of each texel. A plane then never shadows itself, however steeply the light falls, and what remains to be
 // allowed for is how far the map's edges and depths are off: a part of a texel, along the normal. Matches MapRecord in
-// technique/gpu_scene.cpp and technique/shadow/shadow_layers.h.
+// technique/gpu_scene.cpp and shading/shadow_layers.h.
 
 const float LEVEL_BIAS = 0.05, STEEP_BIAS = 0.5;  // texels: where light falls straight, where it grazes
 

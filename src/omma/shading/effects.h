@@ -9,8 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "omma/gl/program.h"
-
 namespace omma {
 
 /// A number, a colour or one of several names. Its name is that of the member in the effect's GLSL struct.
@@ -48,11 +46,6 @@ inline constexpr size_t max_effects = 4;
 
 /// Throws CommandError for more than max_effects, and for two that paint: nothing would be left of the first.
 void check_effects(std::span<const Effect> chain);
-
-/// Symbols that make a program draw the effects one after another; none without effects.
-gl::Defines effect_defines(std::span<const Effect> chain);
-/// Their parameters, for a program with those symbols.
-void set_effects(const gl::Program& program, std::span<const Effect> chain);
 
 /// The effects with their parameters, for people; `markdown`: the tables of docs/effects.md.
 std::string effect_table(bool markdown);

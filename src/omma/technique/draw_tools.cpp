@@ -1,3 +1,4 @@
+#include "omma/technique/effect_program.h"
 #include "omma/technique/technique.h"
 
 namespace omma {

@@ -13,8 +13,8 @@
 #include "omma/gl/context.h"
 #include "omma/gl/objects.h"
 #include "omma/scene/scene.h"
-#include "omma/shading/materials.h"
-#include "omma/technique/shadow/shadow_layers.h"
+#include "omma/shading/shadow_layers.h"
+#include "omma/technique/materials.h"
 
 namespace omma {
 

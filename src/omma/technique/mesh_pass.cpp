@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "omma/technique/effect_program.h"
 #include "omma/technique/target.h"
 
 namespace omma {

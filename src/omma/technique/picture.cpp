@@ -25,13 +25,6 @@ Show show_from_name(const std::string& name) {
   throw CommandError("{}", unknown_name("thing to show", name, names));
 }
 
-Shadows shadows_from_name(const std::string& name) {
-  const std::vector<std::string> names{"off", "paraboloid", "cube"};
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw CommandError("{}", unknown_name("kind of shadows", name, names));
-  return Shadows(found - names.begin());
-}
-
 std::vector<Effect> effects_of(const RenderOptions& options) {
   std::vector<Effect> effects = options.effects;
   if (options.show.contains(Show::edges)) effects.push_back(make_effect("wireframe:width_px=2.5,color=white"));

@@ -9,6 +9,7 @@
 
 #include "omma/camera/pieces/approximate.h"
 #include "omma/shading/effects.h"
+#include "omma/shading/shadow_layers.h"
 
 namespace omma {
 
@@ -27,15 +28,6 @@ struct ShowInfo {
 const std::vector<ShowInfo>& shows();
 /// Throws CommandError with the nearest name when there is no such thing.
 Show show_from_name(const std::string& name);
-
-/// Whether lights cast shadows, and which maps of what they see say so.
-enum class Shadows {
-  off,
-  paraboloid,  ///< one or two paraboloids a light
-  cube,        ///< up to six faces of a cube
-};
-/// off, paraboloid, cube. Throws CommandError with the nearest name when there is no such kind.
-Shadows shadows_from_name(const std::string& name);
 
 struct RenderOptions {
   std::string technique = "auto";  ///< `name` or `name:variant`, see techniques()

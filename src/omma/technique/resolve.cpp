@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "omma/base/error.h"
+#include "omma/technique/effect_program.h"
 
 namespace omma {
 namespace {

@@ -1,4 +1,4 @@
-#include "omma/shading/materials.h"
+#include "omma/technique/materials.h"
 
 #include <algorithm>
 #include <bit>

@@ -3,13 +3,22 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "omma/camera/camera.h"
 #include "omma/scene/scene.h"
-#include "omma/technique/picture.h"
 
 namespace omma {
+
+/// Whether lights cast shadows, and which maps of what they see say so.
+enum class Shadows {
+  off,
+  paraboloid,  ///< one or two paraboloids a light
+  cube,        ///< up to six faces of a cube
+};
+/// off, paraboloid, cube. Throws CommandError with the nearest name when there is no such kind.
+Shadows shadows_from_name(const std::string& name);
 
 /// One map of a light: what it sees of one side of the world.
 struct ShadowLayer {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "omma/technique/shadow/shadow_layers.h"
+#include "omma/shading/shadow_layers.h"
 
 namespace omma {
 namespace {

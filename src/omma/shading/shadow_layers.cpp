@@ -1,4 +1,4 @@
-#include "omma/technique/shadow/shadow_layers.h"
+#include "omma/shading/shadow_layers.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,8 @@
 #include <glm/gtc/constants.hpp>
 #include <string_view>
 
+#include "omma/base/error.h"
+#include "omma/base/names.h"
 #include "omma/math/pose.h"
 
 namespace omma {
@@ -110,6 +112,13 @@ class Planner {
 };
 
 }  // namespace
+
+Shadows shadows_from_name(const std::string& name) {
+  const std::vector<std::string> names{"off", "paraboloid", "cube"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw CommandError("{}", unknown_name("kind of shadows", name, names));
+  return Shadows(found - names.begin());
+}
 
 bool ShadowLayer::flat() const { return std::string_view(camera.lens()->model->info.name) == "perspective"; }
 
