@@ -139,8 +139,8 @@ SHADING vec4 lit(Surface surface, vec4 base) {
     vec3 light;
     vec3 irradiance = incoming_light(light_of(i), kind_of_light(i), surface.position, light);
     real n_l = max(dot(normal, light), 0.0);
-#ifdef SHADOWS
-    if (n_l > 0.0) irradiance *= light_reaching(light_of(i), surface);
+#if defined(SHADOWS) || defined(__cplusplus)
+    irradiance *= choose(n_l > 0.0, light_reaching(i, surface), real(1.0));
 #endif
     radiance += irradiance * (diffuse * (n_l / 3.14159265) + specular(f0, alpha, normal, view, light, n_l, n_v));
   }

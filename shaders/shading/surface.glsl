@@ -13,7 +13,7 @@ struct Surface {
 #ifndef __cplusplus
   int triangle, object, material;
 #endif
-#ifdef SHADOWS
+#if defined(SHADOWS) || defined(__cplusplus)
   vec3 plane;  // of its triangle: a normal of any length, to either side
 #endif
 #ifdef EFFECTS

@@ -61,7 +61,8 @@ struct ShadowVerdict {
   double inner_share() const { return double(inner_wrong) / double(inner); }
 };
 
-class ShadowTest : public GpuTest {
+/// By technique: those that shade with OpenGL, and the processor alone.
+class ShadowTest : public GpuTest, public ::testing::WithParamInterface<const char*> {
  protected:
   /// The scene under one light alone, whose colour is white.
   static Scene under(Scene scene, Light light) {
@@ -72,10 +73,9 @@ class ShadowTest : public GpuTest {
     return scene;
   }
 
-  static ShadowVerdict judge(const Scene& scene, const glm::dmat4& pose, Shadows kind,
-                             const std::string& technique = "raycast", int size = map_size) {
+  static ShadowVerdict judge(const Scene& scene, const glm::dmat4& pose, Shadows kind, int size = map_size) {
     const Camera camera = make_camera("equidistant:fov_deg=200", ImageSize{side, side});
-    RenderOptions options{.technique = technique, .samples = 1, .shadow_size = size};
+    RenderOptions options{.technique = GetParam(), .samples = 1, .shadow_size = size};
     renderer().load(scene);
     const auto plain = draw(camera, pose, {Channel::color, Channel::position, Channel::normal}, options);
     options.shadows = kind;
@@ -132,7 +132,7 @@ struct ShadowCase {
   double share;  ///< share of points on the wrong side, at most; observed: half of it or less
 };
 
-TEST_F(ShadowTest, AgreeWithRaysFromTheLight) {
+TEST_P(ShadowTest, AgreeWithRaysFromTheLight) {
   std::vector<ShadowCase> cases;
   const Scene room = load_scene("room"), temple = load_scene("temple"), city = load_scene("city");
   cases.push_back({"room, lamp", under(room, room.lights.front()), 0.002});
@@ -190,12 +190,12 @@ Scene make_seam() {
   return maker.finish();
 }
 
-TEST_F(ShadowTest, ShowNoLineWhereMapsMeet) {
+TEST_P(ShadowTest, ShowNoLineWhereMapsMeet) {
   const Scene scene = make_seam();
   const glm::dmat4 pose = look_at_worldFromCamera({0.0, 1.5, -0.5}, {0.0, 0.0, -3.0});
   for (const Shadows kind : {Shadows::paraboloid, Shadows::cube}) {
     for (const int size : {64, 512}) {
-      const ShadowVerdict verdict = judge(scene, pose, kind, "raycast", size);
+      const ShadowVerdict verdict = judge(scene, pose, kind, size);
       fmt::print("{} texels: {} points, {} in shadow; wrong {:.3f}%, away from edges {}\n", size, verdict.points,
                  verdict.shadowed, 100.0 * verdict.share(), verdict.inner_wrong);
       EXPECT_GT(verdict.inner, 1900u);
@@ -206,7 +206,7 @@ TEST_F(ShadowTest, ShowNoLineWhereMapsMeet) {
   }
 }
 
-TEST_F(ShadowTest, TouchTheirCasters) {
+TEST_P(ShadowTest, TouchTheirCasters) {
   // A thin wall that stands on a floor: behind it no light leaks in, and before it no shadow lies.
   SceneMaker maker;
   Material paint;
@@ -228,7 +228,7 @@ TEST_F(ShadowTest, TouchTheirCasters) {
   renderer().load(scene);
   // Straight down on the wall's upper edge; a pixel is 8 mm of the floor, a texel 5 mm.
   const glm::dmat4 pose = look_at_worldFromCamera({0.0, 1.4, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
-  RenderOptions options{.technique = "raycast", .samples = 1};
+  RenderOptions options{.technique = GetParam(), .samples = 1};
   const FloatImage bright = draw_color(camera, pose, options);
   options.shadows = Shadows::cube;
   const FloatImage shadowed = draw_color(camera, pose, options);
@@ -242,11 +242,11 @@ TEST_F(ShadowTest, TouchTheirCasters) {
   EXPECT_EQ(early_px, 0);
 }
 
-TEST_F(ShadowTest, FollowWhatMoves) {
+TEST_P(ShadowTest, FollowWhatMoves) {
   Scene scene = make_seam();
   const Camera camera = make_camera("perspective:fov_deg=90", ImageSize{64, 64});
   const glm::dmat4 pose(1.0);
-  const RenderOptions options{.technique = "raycast", .samples = 1, .shadows = Shadows::cube, .shadow_size = 128};
+  const RenderOptions options{.technique = GetParam(), .samples = 1, .shadows = Shadows::cube, .shadow_size = 128};
   renderer().load(scene);
   const FloatImage before = draw_color(camera, pose, options);
   EXPECT_EQ(largest_difference(before, draw_color(camera, pose, options)), 0.0);
@@ -258,7 +258,9 @@ TEST_F(ShadowTest, FollowWhatMoves) {
   EXPECT_EQ(largest_difference(after, draw_color(camera, pose, options)), 0.0);
 }
 
-TEST_F(ShadowTest, AreTheSameInEveryTechniqueThatIsExactThere) {
+class ShadowTechniquesTest : public GpuTest {};
+
+TEST_F(ShadowTechniquesTest, AreTheSameInEveryTechniqueThatIsExactThere) {
   const Scene scene = make_seam();
   const Camera camera = make_camera("perspective:fov_deg=70", ImageSize{96, 96});
   const glm::dmat4 pose = look_at_worldFromCamera({0.3, 0.9, 0.0}, {0.3, 0.0, -3.0});
@@ -276,14 +278,22 @@ TEST_F(ShadowTest, AreTheSameInEveryTechniqueThatIsExactThere) {
   EXPECT_GE(compared, 4u);
 }
 
-TEST_F(ShadowTest, RefuseSizesThatMakeNoMap) {
+TEST_P(ShadowTest, RefuseSizesThatMakeNoMap) {
   const Scene scene = make_seam();
   renderer().load(scene);
   const Camera camera = make_camera("perspective", ImageSize{16, 16});
-  EXPECT_THROW(draw_color(camera, glm::dmat4(1.0), {.shadows = Shadows::cube, .shadow_size = 8}), CommandError);
-  EXPECT_THROW(draw_color(camera, glm::dmat4(1.0), {.shadows = Shadows::cube, .shadow_size = 1 << 20}), MachineError);
+  EXPECT_THROW(
+      draw_color(camera, glm::dmat4(1.0), {.technique = GetParam(), .shadows = Shadows::cube, .shadow_size = 8}),
+      CommandError);
+  EXPECT_THROW(
+      draw_color(camera, glm::dmat4(1.0), {.technique = GetParam(), .shadows = Shadows::cube, .shadow_size = 1 << 20}),
+      MachineError);
   EXPECT_THROW(shadows_from_name("cubes"), CommandError);
 }
+
+INSTANTIATE_TEST_SUITE_P(Techniques, ShadowTest, ::testing::Values("raycast", "visibility:cpu"), [](const auto& shown) {
+  return std::string(shown.param) == "raycast" ? "OpenGl" : "Processor";
+});
 
 }  // namespace
 }  // namespace omma

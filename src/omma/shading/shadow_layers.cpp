@@ -14,6 +14,9 @@
 namespace omma {
 namespace {
 
+/// More than any machine has to spare for shadows. Their texels can be counted in 32 bits.
+constexpr int most_side = 1 << 15;
+constexpr size_t most_texels = size_t{1} << 31;
 constexpr double margin_texels = 4.0;
 constexpr double narrowest = 0.01;         ///< radians from a spot's axis
 constexpr double widest_flat = 0.7853982;  ///< radians from its axis that one perspective map shows
@@ -147,10 +150,32 @@ std::vector<Bounds> boxes_of_triangles(const Scene& scene) {
   return boxes;
 }
 
+std::vector<ShadowMapRecord> shadow_map_records(std::span<const ShadowLayer> layers, const glm::dmat4& worldFromCamera,
+                                                float near, std::span<LightRecord> lights) {
+  std::vector<ShadowMapRecord> records;
+  for (const ShadowLayer& layer : layers) {
+    glm::vec4& cone = lights[size_t(layer.light)].cone;
+    if (cone.w == 0.0f) cone.z = float(records.size());
+    cone.w += 1.0f;
+    const glm::mat4 rows = glm::transpose(glm::mat4(glm::inverse(layer.worldFromMap) * worldFromCamera));
+    const Lens& lens = *layer.camera.lens();
+    records.push_back(
+        {{rows[0], -rows[1], -rows[2]}, glm::vec4(lens.focal.x, lens.centre.x, layer.flat() ? 1.0f : 0.0f, near)});
+  }
+  return records;
+}
+
 std::vector<ShadowLayer> plan_shadow_layers(std::span<const Light> lights, std::span<const Bounds> boxes, Shadows kind,
                                             int size) {
+  if (size > most_side) {
+    throw MachineError("a shadow map of {} texels is too large; up to {} are possible", size, most_side);
+  }
   Planner planner(boxes, kind, size);
   for (size_t i = 0; i < lights.size() && kind != Shadows::off; ++i) planner.add(int(i), lights[i]);
+  if (planner.layers.size() * size_t(size) * size_t(size) > most_texels) {
+    throw MachineError("{} shadow maps of {} x {} texels are too much; give a smaller --shadow-size",
+                       planner.layers.size(), size, size);
+  }
   return std::move(planner.layers);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "omma/camera/camera.h"
+#include "omma/scene/lights.h"
 #include "omma/scene/scene.h"
 
 namespace omma {
@@ -33,9 +34,21 @@ struct ShadowLayer {
 /// Square maps of `size` texels, a light's one after another. Points have two paraboloids or six faces of a cube;
 /// spots one map of their cone, or, where it is too wide for one, those sides that it reaches. A sun is one map of
 /// those `boxes` that anything lies behind, seen from so far away that no ray is farther off than the sun's own radius,
-/// 0.27 degrees. The boxes (world) hold the scene's triangles.
+/// 0.27 degrees. The boxes (world) hold the scene's triangles. Throws MachineError for more than 2^15 texels a
+/// side or 2^31 in all.
 std::vector<ShadowLayer> plan_shadow_layers(std::span<const Light> lights, std::span<const Bounds> boxes, Shadows kind,
                                             int size);
+
+/// A map as shaders see it: four vectors, as in shaders/shading/shadow.glsl.
+struct ShadowMapRecord {
+  glm::vec4 mapFromCamera[3];  ///< rows: right, down, ahead
+  glm::vec4 lens;              ///< focal length and centre in texels; 1 for flat maps; `near`
+};
+
+/// The records of all layers, in their order, for a camera; the lights learn which maps are theirs. `near`: metres,
+/// which the maps hold by their distances (flat ones: by how far ahead) as quotients.
+std::vector<ShadowMapRecord> shadow_map_records(std::span<const ShadowLayer> layers, const glm::dmat4& worldFromCamera,
+                                                float near, std::span<LightRecord> lights);
 
 /// Boxes that hold the scene's triangles: of each instance, or of its single triangles where it reaches to the scene's
 /// end, as the ground does.

@@ -26,6 +26,7 @@ using IntTag = hn::RebindToSigned<FloatTag>;
 struct real : Floats {
   HWY_INLINE real() = default;
   HWY_INLINE real(const Floats& values) : Floats(values) {}
+  HWY_INLINE real(int value) : Floats(all(float(value))) {}
   HWY_INLINE real(float value) : Floats(all(value)) {}
   HWY_INLINE real(double value) : Floats(all(float(value))) {}
 };
@@ -185,6 +186,32 @@ HWY_INLINE vec3 cross(const vec3& a, const vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 HWY_INLINE vec3 reflect(const vec3& a, const vec3& normal) { return a - normal * (real(2.0f) * dot(normal, a)); }
+
+/// Sixteen places in an array.
+struct Places {
+  hn::Vec<IntTag> v[registers];
+};
+/// Of whole numbers from 0 to `last`; what is less, more or no number is one of those, too.
+HWY_INLINE Places places_of(const real& number, int last) {
+  const IntTag d;
+  Places r;
+  for (size_t k = 0; k < registers; ++k) {
+    r.v[k] = hn::Min(hn::Max(hn::ConvertTo(d, number.v[k]), hn::Zero(d)), hn::Set(d, last));
+  }
+  return r;
+}
+/// a * stride + b.
+HWY_INLINE Places in_rows(const Places& a, int stride, const Places& b) {
+  const IntTag d;
+  Places r;
+  for (size_t k = 0; k < registers; ++k) r.v[k] = hn::Add(hn::Mul(a.v[k], hn::Set(d, stride)), b.v[k]);
+  return r;
+}
+HWY_INLINE real gathered(const float* from, const Places& places) {
+  real r;
+  for (size_t k = 0; k < registers; ++k) r.v[k] = hn::GatherIndex(FloatTag(), from, places.v[k]);
+  return r;
+}
 
 struct mat4 {
   vec4 column[4];

@@ -157,6 +157,7 @@ HWY_INLINE Shader::Surface surface_of(const Records& t, bool tangents, bool colo
   // Normals that cancel say nothing; the triangle itself does.
   const vec3 flat = planes[0] * choose(t(OMMA_FIELD(volume)) < real(0.0f), real(1.0f), real(-1.0f));
   surface.normal = normalize(choose(dot(normal, normal) > real(1e-30), normal, flat));
+  surface.plane = planes[0];
   surface.uv = vec2_of(t, OMMA_FIELD(uv));
   const vec2 uv_b = vec2_of(t, OMMA_FIELD(uv_b)), uv_c = vec2_of(t, OMMA_FIELD(uv_c));
   surface.uv += uv_b * bc.x + uv_c * bc.y;
@@ -182,6 +183,7 @@ HWY_INLINE Shader::Surface choose(const truth& condition, const Shader::Surface&
   Shader::Surface surface;
   surface.position = choose(condition, yes.position, no.position);
   surface.normal = choose(condition, yes.normal, no.normal);
+  surface.plane = choose(condition, yes.plane, no.plane);
   surface.tangent = choose(condition, yes.tangent, no.tangent);
   surface.uv = choose(condition, yes.uv, no.uv);
   surface.uv_dx = choose(condition, yes.uv_dx, no.uv_dx);

@@ -8,7 +8,7 @@
 #endif
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "omma/software/sample_texture-inl.h"
 #include "omma/software/shade_fragments.h"
@@ -31,6 +31,9 @@ class Shader {
     frame.background = vec4(scene.background ? glm::vec4(*scene.background, 1.0f) : glm::vec4(0.0f));
     frame.counts.x = uint(scene.lights.size());
     lights_ = scene.lights.data();
+    shadow_maps_ = scene.shadow_maps;
+    shadow_depths_ = scene.shadow_depths;
+    shadow_size_ = scene.shadow_size;
   }
 
   void set_material(const ShadedScene& scene, int index) {
@@ -53,6 +56,8 @@ class Shader {
 
   bool needs_tangents() const { return has.normal_texture; }
 
+#include "shading/shadow.glsl"
+
 #include "shading/material.glsl"
 
  private:
@@ -61,6 +66,27 @@ class Shader {
     return {vec4(light.position), vec4(light.direction), vec4(light.color), vec4(light.cone)};
   }
   int kind_of_light(uint number) const { return int(lights_[number].direction.w); }
+
+  int first_map_of_light(uint number) const { return int(lights_[number].cone.z); }
+  int maps_of_light(uint number) const { return int(lights_[number].cone.w); }
+  vec4 map_texel(int number, int part) const {
+    const ShadowMapRecord& map = shadow_maps_[size_t(number)];
+    return vec4(part < 3 ? map.mapFromCamera[part] : map.lens);
+  }
+  vec4 map_texel(const real& number, int part) const {
+    constexpr int record_floats = sizeof(ShadowMapRecord) / sizeof(float);
+    const auto* floats = reinterpret_cast<const float*>(shadow_maps_.data()) + 4 * part;
+    const Places first = places_of(number * real(record_floats), last_map() * record_floats);
+    return {gathered(floats, first), gathered(floats + 1, first), gathered(floats + 2, first),
+            gathered(floats + 3, first)};
+  }
+  int last_map() const { return int(shadow_maps_.size()) - 1; }
+  float shadow_map_side() const { return float(shadow_size_); }
+  real shadow_texel(const real& number, const vec2& texel) const {
+    const int last = shadow_size_ - 1;
+    const Places row = in_rows(places_of(number, last_map()), shadow_size_, places_of(texel.y, last));
+    return gathered(shadow_depths_, in_rows(row, shadow_size_, places_of(texel.x, last)));
+  }
 
   /// As in shading/texture.glsl.
   HWY_NOINLINE vec4 sample_filtered(const MipTexture* texture, const vec2& uv, const vec2& dx, const vec2& dy) {
@@ -93,6 +119,9 @@ class Shader {
   MaterialParts has;
   const MipTexture *base_color_texture, *normal_texture, *metallic_roughness_texture, *emissive_texture;
   const omma::LightRecord* lights_;
+  std::span<const ShadowMapRecord> shadow_maps_;
+  const float* shadow_depths_;
+  int shadow_size_;
   bool anisotropic_;
 };
 

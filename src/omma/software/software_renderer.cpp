@@ -9,7 +9,6 @@
 
 #include "omma/base/error.h"
 #include "omma/camera/pieces/piece_set.h"
-#include "omma/camera/ray_bundle.h"
 #include "omma/math/spread.h"
 #include "omma/math/tiles.h"
 #include "omma/software/channel_writer.h"
@@ -18,9 +17,6 @@
 namespace omma {
 namespace {
 
-/// Rays and their tree take some 26 bytes a ray; so many are found at once, and twice as many kept for the next
-/// picture.
-constexpr size_t most_rays = size_t{1} << 25;
 /// More samples come in passes: a square of pixels and what its rays meet should stay in the processor's caches.
 constexpr size_t most_samples = 16;
 
@@ -54,12 +50,6 @@ Image make_image(const ChannelInfo& info, ImageSize size) {
 /// On the grid of pieces, where it is decided in whole numbers whose a sample is.
 glm::dvec2 shift_of_sample(int i) { return glm::round(spread_point(i) * double(piece_grid)) / double(piece_grid); }
 
-/// Squares of so many rays, whole blocks along their sides.
-int good_tile(size_t samples) {
-  const int side = int(std::sqrt(double(most_rays / samples)));
-  return side / RayBlock::side * RayBlock::side;
-}
-
 std::vector<SeenInstance> seen_instances(const Scene& scene, const glm::dmat4& cameraFromWorld) {
   std::vector<SeenInstance> instances;
   instances.reserve(scene.instances.size());
@@ -68,24 +58,6 @@ std::vector<SeenInstance> seen_instances(const Scene& scene, const glm::dmat4& c
 }
 
 }  // namespace
-
-const RayTree& SoftwareRenderer::rays_of_tile(const Camera& camera, const PixelRect& tile,
-                                              const std::vector<glm::dvec2>& shifts) {
-  for (auto rays = rays_.begin(); rays != rays_.end(); ++rays) {
-    if (rays->tile != tile || rays->shifts != shifts || rays->camera != camera) continue;
-    rays_.splice(rays_.end(), rays_, rays);
-    return rays->tree;
-  }
-  const auto count = [](ImageSize size) { return size_t(size.width) * size_t(size.height); };
-  size_t kept = count({tile.width(), tile.height()}) * shifts.size();
-  for (const Rays& rays : rays_) kept += count(rays.tree.size()) * rays.shifts.size();
-  for (; !rays_.empty() && kept > 2 * most_rays; rays_.pop_front()) {
-    kept -= count(rays_.front().tree.size()) * rays_.front().shifts.size();
-  }
-  std::vector<RayMap> samples;
-  for (const glm::dvec2& shift : shifts) samples.push_back(rays_of(camera, tile, shift));
-  return rays_.emplace_back(Rays{camera, tile, shifts, RayTree(samples)}).tree;
-}
 
 void SoftwareRenderer::prepare_textures() {
   if (!textures_.empty() || scene_->textures.empty()) return;
@@ -108,13 +80,21 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
     instances.emplace_back(seen, glm::dmat3(cameraFromWorld));
   }
   watch.add_to("prepare");
+  if (options.shadows != Shadows::off) {
+    shadow_depths_.use(*scene_, options.shadows, options.shadow_size, finder_, ray_trees_);
+    shaded.shadow_maps =
+        shadow_map_records(shadow_depths_.layers(), worldFromCamera, ShadowDepths::near, shaded.lights);
+    shaded.shadow_depths = shadow_depths_.depths().data();
+    shaded.shadow_size = options.shadow_size;
+    watch.add_to("shadow maps");
+  }
   finder_.set_view(worldFromCamera);
   watch.add_to("place");
 
   tbb::enumerable_thread_specific<Fragments> scratch([&] { return Fragments(instances); });
   const auto samples = size_t(options.samples);
   const std::vector<PixelRect> tiles =
-      tiles_of(camera.size(), options.tile > 0 ? options.tile : good_tile(std::min(samples, most_samples)));
+      tiles_of(camera.size(), options.tile > 0 ? options.tile : RayTrees::good_tile(std::min(samples, most_samples)));
   for (size_t first = 0; first < samples; first += most_samples, ++stats.passes) {
     const size_t count = std::min(most_samples, samples - first);
     const float share = float(count) / float(samples);
@@ -122,7 +102,7 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
     for (size_t i = first; i < first + count; ++i)
       shifts.push_back(samples > 1 ? shift_of_sample(int(i)) : glm::dvec2(0));
     for (const PixelRect& tile : tiles) {
-      const RayTree& rays = rays_of_tile(camera, tile, shifts);
+      const RayTree& rays = ray_trees_.of_tile(camera, tile, shifts);
       watch.add_to("ray tree");
       finder_.each_square(rays, [&](std::span<const FoundBlock> found) {
         Fragments& fragments = scratch.local();
@@ -145,8 +125,8 @@ void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& wor
   watch.add_to("place");
   const std::vector<SeenInstance> instances = seen_instances(*scene_, glm::inverse(worldFromCamera));
   const ChannelWriter writer(instances, worldFromCamera, images);
-  for (const PixelRect& part : tiles_of(camera.size(), tile > 0 ? tile : good_tile(1))) {
-    const RayTree& rays = rays_of_tile(camera, part, {glm::dvec2(0.0)});
+  for (const PixelRect& part : tiles_of(camera.size(), tile > 0 ? tile : RayTrees::good_tile(1))) {
+    const RayTree& rays = ray_trees_.of_tile(camera, part, {glm::dvec2(0.0)});
     watch.add_to("ray tree");
     finder_.each_block(rays, Solid::labels, [&](const RayBlock& block, const BlockPicture& picture) {
       writer.write(block, picture, {part.x0, part.y0});
@@ -173,8 +153,7 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
     took.tiles = 0;
     draw_channels(camera, worldFromCamera, options.tile, images, took);
   }
-  took.bytes = finder_.bytes();
-  for (const Rays& rays : rays_) took.bytes += rays.tree.bytes();
+  took.bytes = finder_.bytes() + ray_trees_.bytes() + shadow_depths_.depths().size() * sizeof(float);
   for (const MipTexture& texture : textures_) took.bytes += texture.bytes();
   if (stats != nullptr) *stats = took;
   return images;

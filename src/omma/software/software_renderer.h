@@ -6,7 +6,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <list>
 #include <map>
 #include <optional>
 #include <span>
@@ -17,6 +16,8 @@
 #include "omma/image/image.h"
 #include "omma/scene/scene.h"
 #include "omma/software/mip_texture.h"
+#include "omma/software/ray_trees.h"
+#include "omma/software/shadow_depths.h"
 #include "omma/visibility/finder.h"
 
 namespace omma {
@@ -26,6 +27,8 @@ struct SoftwareOptions {
   int samples = 4;                        ///< per pixel, 1 or more
   bool anisotropic = true;                ///< up to sixteen samples of a texture along a pixel's longer axis
   std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
+  Shadows shadows = Shadows::off;
+  int shadow_size = 1024;  ///< texels along a shadow map, 16 or more
   /// Pixels along the side of what is drawn at once, 0 for a good number. It bounds the memory, not the picture.
   int tile = 0;
 };
@@ -45,25 +48,20 @@ class SoftwareRenderer {
   explicit SoftwareRenderer(const Scene& scene) : scene_(&scene), finder_(scene) {}
 
   /// Takes over what set_time changed: transforms, lights and deformed vertices.
-  void update() { finder_.update(); }
+  void update() {
+    finder_.update();
+    shadow_depths_.scene_changed();
+  }
 
   /// The image of every channel asked for, of the camera's size: colour linear, lengths in metres, `normal` and
   /// `position` in the world's frame, what channels() says where nothing is. `worldFromCamera` is rigid. Runs on all
   /// cores; the result is the same on any number of them. Throws CommandError for no channel, no sample and a negative
-  /// tile, MachineError for a texture too large.
+  /// tile, MachineError for textures and shadow maps too large.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const SoftwareOptions& options = {},
                                   SoftwareStats* stats = nullptr);
 
  private:
-  /// The rays of a tile, one at each of `shifts` from the pixels' centres.
-  struct Rays {
-    Camera camera;
-    PixelRect tile;
-    std::vector<glm::dvec2> shifts;
-    RayTree tree;
-  };
-  const RayTree& rays_of_tile(const Camera& camera, const PixelRect& tile, const std::vector<glm::dvec2>& shifts);
   void prepare_textures();
   void draw_color(const Camera& camera, const glm::dmat4& worldFromCamera, const SoftwareOptions& options,
                   FloatImage& image, SoftwareStats& stats);
@@ -73,7 +71,8 @@ class SoftwareRenderer {
   const Scene* scene_;
   Finder finder_;
   std::vector<MipTexture> textures_;
-  std::list<Rays> rays_;  ///< of the last pictures, which the next one mostly shares; the last used last
+  RayTrees ray_trees_;
+  ShadowDepths shadow_depths_;
 };
 
 }  // namespace omma

@@ -16,12 +16,6 @@ struct InstanceRecord {
   glm::uvec4 numbers;
 };
 
-/// Four texels, as in shading/shadow.glsl, behind those of the lights.
-struct MapRecord {
-  glm::vec4 mapFromCamera[3];  ///< rows: right, down, ahead
-  glm::vec4 lens;              ///< focal length and centre in texels; flat; near depth
-};
-
 /// std140, as in common/frame.glsl.
 struct FrameBlock {
   glm::mat4 worldFromCamera;
@@ -50,13 +44,6 @@ glm::uvec4 pack_attributes(const Mesh& mesh, size_t i) {
   }
   const glm::vec2 uv = mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[i];
   return {pack_direction(mesh.normals[i]), tangent, glm::floatBitsToUint(uv.x), glm::floatBitsToUint(uv.y)};
-}
-
-MapRecord record(const ShadowLayer& layer, const glm::dmat4& worldFromCamera) {
-  const glm::mat4 rows = glm::transpose(glm::mat4(glm::inverse(layer.worldFromMap) * worldFromCamera));
-  const Lens& lens = *layer.camera.lens();
-  return {{rows[0], -rows[1], -rows[2]},
-          glm::vec4(lens.focal.x, lens.centre.x, layer.flat() ? 1.0f : 0.0f, near_depth)};
 }
 
 enum Attribute : GLuint { position_attribute, packed_attribute, color_attribute, part_attribute };
@@ -194,18 +181,11 @@ void GpuScene::set_view(const glm::dmat4& worldFromCamera, const std::optional<g
 
   std::vector<LightRecord> lights;
   for (const Light& light : lights_of(*scene_)) lights.push_back(light_record(light, cameraFromWorld));
-  std::vector<MapRecord> maps;
-  if (shadows_ != nullptr) {
-    for (const ShadowLayer& layer : shadows_->layers) {
-      glm::vec4& cone = lights[size_t(layer.light)].cone;
-      if (cone.w == 0.0f) cone.z = float(maps.size());
-      cone.w += 1.0f;
-      maps.push_back(record(layer, worldFromCamera));
-    }
-  }
-  light_texels_.reserve(lights.size() * sizeof(LightRecord) + maps.size() * sizeof(MapRecord));
+  std::vector<ShadowMapRecord> maps;
+  if (shadows_ != nullptr) maps = shadow_map_records(shadows_->layers, worldFromCamera, near_depth, lights);
+  light_texels_.reserve(lights.size() * sizeof(LightRecord) + maps.size() * sizeof(ShadowMapRecord));
   light_texels_.write(std::span<const LightRecord>(lights));
-  light_texels_.write(std::span<const MapRecord>(maps), lights.size() * sizeof(LightRecord));
+  light_texels_.write(std::span<const ShadowMapRecord>(maps), lights.size() * sizeof(LightRecord));
 
   FrameBlock frame{glm::mat4(worldFromCamera), glm::vec4(scene_->ambient, 0.0f),
                    background ? glm::vec4(*background, 1.0f) : glm::vec4(0.0f), glm::uvec4(lights.size(), 0, 0, 0),

@@ -5,12 +5,6 @@
 #include "omma/technique/registry.h"
 
 namespace omma {
-namespace {
-
-/// More than any GPU has to spare for shadows.
-constexpr size_t most_bytes = size_t{8} << 30;
-
-}  // namespace
 
 void ShadowMaps::use(Shadows kind, int size) {
   if (kind == Shadows::off) return scene_.set_shadows(nullptr);
@@ -24,9 +18,8 @@ void ShadowMaps::use(Shadows kind, int size) {
         plan_shadow_layers(lights_of(scene_.scene()), boxes_of_triangles(scene_.scene()), kind, size);
     GLint most_layers = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
-    if (layers.size() > size_t(most_layers) || layers.size() * size_t(size) * size_t(size) * 4 > most_bytes) {
-      throw MachineError("{} shadow maps of {} x {} texels are too much; give a smaller --shadow-size", layers.size(),
-                         size, size);
+    if (layers.size() > size_t(most_layers)) {
+      throw MachineError("{} shadow maps are too many for this driver, which has up to {}", layers.size(), most_layers);
     }
     table_.layers = std::move(layers);
     table_.maps = gl::Texture::array(depth_format, {size, size}, int(table_.layers.size()));
