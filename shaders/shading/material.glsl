@@ -127,9 +127,9 @@ SHADING vec4 lit(Surface surface, vec4 base) {
   real up = dot(normal, transpose(mat3(frame.worldFromCamera))[1]);
   vec3 ambient = xyz_of(frame.ambient) * (0.75 + 0.25 * up);
   vec3 radiance = emitted + ambient * (diffuse + f0);
-#ifdef REFLECTION
+#if defined(REFLECTION) || defined(__cplusplus)
   // A rough surface shows less of the brightening at grazing angles (Lagarde 2011).
-  if (surface.object == int(frame.counts.y)) {
+  if (reflects(surface)) {
     real grazing = 1.0 - n_v, grazing2 = grazing * grazing;
     vec3 fresnel = f0 + (max(vec3(1.0 - roughness), f0) - f0) * (grazing2 * grazing2 * grazing);
     radiance = emitted + ambient * diffuse + fresnel * surroundings_along(reflect(-view, normal), alpha);

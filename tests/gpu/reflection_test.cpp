@@ -14,7 +14,8 @@ namespace {
 
 constexpr int side = 160;  // pixels
 
-class ReflectionTest : public GpuTest {
+/// By technique: one that shades with OpenGL, and the processor alone.
+class ReflectionTest : public GpuTest, public ::testing::WithParamInterface<const char*> {
  protected:
   /// A ball in a box 6 m wide whose six walls have six colours, on a grey slab. The ball is object 0.
   static Scene make_room(const glm::dvec3& ball, float roughness, bool with_ball = true) {
@@ -40,7 +41,7 @@ class ReflectionTest : public GpuTest {
   }
 
   static RenderOptions reflecting(int object) {
-    RenderOptions options{.technique = "raycast", .samples = 1};
+    RenderOptions options{.technique = GetParam(), .samples = 1};
     options.reflect = object;
     return options;
   }
@@ -66,7 +67,7 @@ std::vector<glm::vec3> colors_along(const Scene& scene, const glm::dvec3& at, co
   return colors;
 }
 
-TEST_F(ReflectionTest, OfAMirrorIsWhatRaysFromItsMiddleSee) {
+TEST_P(ReflectionTest, OfAMirrorIsWhatRaysFromItsMiddleSee) {
   const glm::dvec3 middle(0.1, -0.2, 0.3);
   const Scene scene = make_room(middle, 0.0f), surroundings = make_room(middle, 0.0f, false);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{side, side});
@@ -106,7 +107,7 @@ TEST_F(ReflectionTest, OfAMirrorIsWhatRaysFromItsMiddleSee) {
   EXPECT_LT(parallax, 0.2);  // what one centre for the whole object costs in a room this small
 }
 
-TEST_F(ReflectionTest, OfARoughSurfaceIsBlurredWithoutASeam) {
+TEST_P(ReflectionTest, OfARoughSurfaceIsBlurredWithoutASeam) {
   constexpr int wide = 400;  // where the ball faces the camera a pixel turns the reflection by 1.5 degrees at most
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{wide, wide});
   const auto steepest = [&](float roughness) {
@@ -132,7 +133,7 @@ TEST_F(ReflectionTest, OfARoughSurfaceIsBlurredWithoutASeam) {
   EXPECT_LT(steepest(0.7f), 0.25);
 }
 
-TEST_F(ReflectionTest, FollowsWhatMovesAndLeavesOthersAlone) {
+TEST_P(ReflectionTest, FollowsWhatMovesAndLeavesOthersAlone) {
   Scene scene = make_room({0, 0, 0}, 0.1f);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{48, 48});
   renderer().load(scene);
@@ -152,7 +153,7 @@ TEST_F(ReflectionTest, FollowsWhatMovesAndLeavesOthersAlone) {
   EXPECT_EQ(largest_difference(plain, draw_color(camera, pose, options)), 0.0);
 }
 
-TEST_F(ReflectionTest, IsTheSameInExactTechniquesAndWithShadows) {
+TEST_P(ReflectionTest, IsTheSameInExactTechniquesAndWithShadows) {
   const Scene scene = make_room({0, 0, 0}, 0.2f);
   renderer().load(scene);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{64, 64});
@@ -160,13 +161,13 @@ TEST_F(ReflectionTest, IsTheSameInExactTechniquesAndWithShadows) {
   options.shadows = Shadows::cube;
   options.shadow_size = 64;
   const FloatImage truth = draw_color(camera, pose, options);
-  for (const char* technique : {"planar", "nonlinear", "visibility", "piecewise"}) {
+  for (const char* technique : {"planar", "nonlinear", "visibility:resolve", "visibility:cpu", "piecewise"}) {
     options.technique = technique;
     EXPECT_GT(psnr(truth, draw_color(camera, pose, options)), 35.0) << technique;
   }
 }
 
-TEST_F(ReflectionTest, RefusesObjectsThatAreNotThere) {
+TEST_P(ReflectionTest, RefusesObjectsThatAreNotThere) {
   const Scene scene = make_room({0, 0, 0}, 0.2f);
   renderer().load(scene);
   const Camera camera = make_camera("perspective", ImageSize{16, 16});
@@ -177,6 +178,9 @@ TEST_F(ReflectionTest, RefusesObjectsThatAreNotThere) {
   options.reflection_size = 1 << 20;
   EXPECT_THROW(draw_color(camera, pose, options), MachineError);
 }
+
+INSTANTIATE_TEST_SUITE_P(Techniques, ReflectionTest, ::testing::Values("raycast", "visibility:cpu"),
+                         [](const auto& tested) { return test_name(tested.param); });
 
 }  // namespace
 }  // namespace omma

@@ -131,9 +131,12 @@ int Fragments::seen_of(int at, uint32_t triangle, uint32_t instance, const glm::
 Fragments::Kind Fragments::kind_of(uint32_t triangle, uint32_t instance) {
   const bool is_background = triangle == meets_nothing;
   const int material = is_background ? background_material : instances_[instance].material;
+  const bool reflects = !is_background && instances_[instance].reflects;
   size_t group = 0;
-  while (group < groups_.size() && groups_[group].material != material) ++group;
-  if (group == groups_.size()) groups_.push_back({material, 0, 0});
+  while (group < groups_.size() && (groups_[group].material != material || groups_[group].reflects != reflects)) {
+    ++group;
+  }
+  if (group == groups_.size()) groups_.push_back({material, reflects, 0, 0});
   return {uint32_t(group), is_background ? 0 : record_of(triangle, instance)};
 }
 

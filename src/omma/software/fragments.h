@@ -16,9 +16,11 @@ namespace omma {
 /// In the place of a material: rays that meet nothing.
 inline constexpr int background_material = -1;
 
-/// Fragments of one material, in the arrays of Fragments.
+/// Fragments of one material, all of which reflect what surrounds their object or none does, in the arrays of
+/// Fragments.
 struct FragmentGroup {
   int material;
+  bool reflects;
   uint32_t first,
       count;  ///< `first` is a multiple of 16; the arrays go on to the next multiple with copies of the last
 };

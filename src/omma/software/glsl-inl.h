@@ -99,6 +99,7 @@ HWY_INLINE real smoothstep(const real& low, const real& high, const real& a) {
   const real t = clamp((a - low) / (high - low), 0.0f, 1.0f);
   return t * t * (real(3.0f) - real(2.0f) * t);
 }
+HWY_INLINE bool some(const truth& condition) { return bits(condition) != 0; }
 HWY_INLINE real choose(const truth& condition, const real& yes, const real& no) {
   return HWY_NAMESPACE::choose(condition, static_cast<const Floats&>(yes), static_cast<const Floats&>(no));
 }

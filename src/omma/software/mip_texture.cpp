@@ -7,54 +7,10 @@
 
 #include "omma/base/error.h"
 #include "omma/image/srgb.h"
+#include "omma/software/box_filter.h"
 
 namespace omma {
 namespace {
-
-/// Texels of one axis that a texel of the next level covers, and how much of each: three where the size is odd.
-struct Covered {
-  int first;
-  float weight[3];
-};
-
-std::vector<Covered> covered_by_next_level(int size, int next) {
-  std::vector<Covered> all(size_t(next), Covered{});
-  const double step = double(size) / double(next);
-  for (int i = 0; i < next; ++i) {
-    const double begin = i * step, end = begin + step;
-    Covered& covered = all[size_t(i)];
-    covered.first = std::min(int(begin), size - 1);
-    for (int k = 0; k < 3; ++k) {
-      const double low = std::max(begin, double(covered.first + k));
-      const double high = std::min(end, double(covered.first + k + 1));
-      covered.weight[k] = float(std::max(0.0, high - low) / step);
-    }
-  }
-  return all;
-}
-
-using Linear = std::vector<glm::vec4>;
-
-Linear smaller(const Linear& level, glm::ivec2 size, glm::ivec2 next) {
-  const std::vector<Covered> across = covered_by_next_level(size.x, next.x);
-  const std::vector<Covered> down = covered_by_next_level(size.y, next.y);
-  Linear result(size_t(next.x) * size_t(next.y));
-  for (int y = 0; y < next.y; ++y) {
-    for (int x = 0; x < next.x; ++x) {
-      glm::vec4 sum(0.0f);
-      for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 3; ++i) {
-          const float weight = across[size_t(x)].weight[i] * down[size_t(y)].weight[j];
-          if (weight == 0.0f) continue;
-          const int column = across[size_t(x)].first + i, row = down[size_t(y)].first + j;
-          sum += weight * level[size_t(row) * size_t(size.x) + size_t(column)];
-        }
-      }
-      result[size_t(y) * size_t(next.x) + size_t(x)] = sum;
-    }
-  }
-  return result;
-}
 
 uint32_t packed(const glm::vec4& linear, bool srgb) {
   uint32_t bits = 0;
@@ -79,7 +35,7 @@ MipTexture::MipTexture(const Texture& texture)
   }
   std::array<float, 256> linear_of;
   for (size_t i = 0; i < 256; ++i) linear_of[i] = srgb ? linear_from_srgb(float(i) / 255.0f) : float(i) / 255.0f;
-  Linear level;
+  std::vector<glm::vec4> level;
   level.reserve(texture.texels.size());
   for (const glm::u8vec4& texel : texture.texels) {
     texels.push_back(uint32_t(texel.r) | uint32_t(texel.g) << 8 | uint32_t(texel.b) << 16 | uint32_t(texel.a) << 24);
@@ -87,11 +43,10 @@ MipTexture::MipTexture(const Texture& texture)
   }
   glm::ivec2 size(width, height);
   for (int l = 1; l < levels; ++l) {
-    const glm::ivec2 next = glm::max(size / 2, 1);
-    level = smaller(level, size, next);
+    level = next_level(level, size);
+    size = next_size(size);
     first[size_t(l)] = int32_t(texels.size());
     for (const glm::vec4& value : level) texels.push_back(packed(value, srgb));
-    size = next;
   }
 }
 

@@ -232,7 +232,7 @@ void shade_fragments(const ShadedScene& scene, const RayBlock& block, const Squa
   const RayChanges changes(block, border);
   for (const FragmentGroup& group : fragments.groups()) {
     const bool is_background = group.material == background_material;
-    if (!is_background) shader.set_material(scene, group.material);
+    if (!is_background) shader.set_material(scene, group.material, group.reflects);
     for (uint32_t at = group.first; at < group.first + group.count; at += 16) {
       const vec3 direction(loaded(&fragments.x[at]), loaded(&fragments.y[at]), loaded(&fragments.z[at]));
       const vec4 color = is_background

@@ -11,6 +11,7 @@
 #include "omma/shading/shadow_layers.h"
 #include "omma/software/fragments.h"
 #include "omma/software/mip_texture.h"
+#include "omma/software/surroundings.h"
 
 namespace omma {
 
@@ -25,6 +26,7 @@ struct ShadedScene {
   std::vector<ShadowMapRecord> shadow_maps{};  ///< as the lights count them
   const float* shadow_depths = nullptr;        ///< of ShadowDepths
   int shadow_size = 0;                         ///< texels along a map
+  const Surroundings* surroundings = nullptr;  ///< of the object that reflects; null where none does
 };
 
 /// Writes the fragments' colours and coverage. `block` and `border`: the rays of the first sample of their square, and

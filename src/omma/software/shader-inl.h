@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 
+#include "omma/software/sample_surroundings-inl.h"
 #include "omma/software/sample_texture-inl.h"
 #include "omma/software/shade_fragments.h"
 
@@ -34,9 +35,15 @@ class Shader {
     shadow_maps_ = scene.shadow_maps;
     shadow_depths_ = scene.shadow_depths;
     shadow_size_ = scene.shadow_size;
+    surroundings_ = scene.surroundings;
+    if (surroundings_ != nullptr) {
+      const Surroundings& of = *surroundings_;
+      frame.reflection = vec4(glm::vec4(of.focal, float(of.size), float(of.levels - 1), 0.0f));
+    }
   }
 
-  void set_material(const ShadedScene& scene, int index) {
+  void set_material(const ShadedScene& scene, int index, bool shows_surroundings) {
+    reflects_ = shows_surroundings;
     const Material& of = scene.scene->materials[size_t(index)];
     const auto texture = [&](int number) { return number < 0 ? nullptr : &scene.textures[size_t(number)]; };
     base_color_texture = texture(of.base_color_texture);
@@ -56,6 +63,7 @@ class Shader {
 
   bool needs_tangents() const { return has.normal_texture; }
 
+#include "shading/reflection.glsl"
 #include "shading/shadow.glsl"
 
 #include "shading/material.glsl"
@@ -88,6 +96,11 @@ class Shader {
     return gathered(shadow_depths_, in_rows(row, shadow_size_, places_of(texel.x, last)));
   }
 
+  bool reflects(const Surface&) const { return reflects_; }
+  HWY_NOINLINE vec3 surroundings_at(int side, const vec2& at, const real& level) const {
+    return sample_surroundings(*surroundings_, side, at, level);
+  }
+
   /// As in shading/texture.glsl.
   HWY_NOINLINE vec4 sample_filtered(const MipTexture* texture, const vec2& uv, const vec2& dx, const vec2& dy) {
     const vec2 size{real(float(texture->width)), real(float(texture->height))};
@@ -112,6 +125,7 @@ class Shader {
     struct {
       uint x;
     } counts;
+    vec4 reflection;
   } frame;
   struct {
     vec4 base_color, emissive, parameters;
@@ -122,6 +136,8 @@ class Shader {
   std::span<const ShadowMapRecord> shadow_maps_;
   const float* shadow_depths_;
   int shadow_size_;
+  const Surroundings* surroundings_;
+  bool reflects_ = false;
   bool anisotropic_;
 };
 

@@ -67,7 +67,8 @@ void SoftwareRenderer::prepare_textures() {
 }
 
 void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldFromCamera,
-                                  const SoftwareOptions& options, FloatImage& image, SoftwareStats& stats) {
+                                  const SoftwareOptions& options, std::optional<int> hidden_object, FloatImage& image,
+                                  SoftwareStats& stats) {
   Stopwatch watch(stats);
   prepare_textures();
   const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
@@ -77,7 +78,7 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   for (const Light& light : lights_of(*scene_)) shaded.lights.push_back(light_record(light, cameraFromWorld));
   std::vector<RecordInstance> instances;
   for (const SeenInstance& seen : seen_instances(*scene_, cameraFromWorld)) {
-    instances.emplace_back(seen, glm::dmat3(cameraFromWorld));
+    instances.emplace_back(seen, glm::dmat3(cameraFromWorld), seen.object == options.reflect);
   }
   watch.add_to("prepare");
   if (options.shadows != Shadows::off) {
@@ -88,7 +89,11 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
     shaded.shadow_size = options.shadow_size;
     watch.add_to("shadow maps");
   }
-  finder_.set_view(worldFromCamera);
+  if (options.reflect) {
+    shaded.surroundings = &surroundings_of(options);
+    watch.add_to("reflection maps");
+  }
+  finder_.set_view(worldFromCamera, hidden_object);
   watch.add_to("place");
 
   tbb::enumerable_thread_specific<Fragments> scratch([&] { return Fragments(instances); });
@@ -116,6 +121,32 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
     stats.tiles += first == 0 ? int(tiles.size()) : 0;
   }
   for (const Fragments& fragments : scratch) stats.fragments += fragments.surfaces();
+}
+
+const Surroundings& SoftwareRenderer::surroundings_of(const SoftwareOptions& options) {
+  const SurroundingsKey key{*options.reflect, options.reflection_size, options.background, options.shadows,
+                            options.shadow_size};
+  if (surroundings_ && surroundings_key_ == key) return *surroundings_;
+  surroundings_.reset();
+  if (key.size > Surroundings::most_size) {
+    throw MachineError("a reflection map of {} texels is too large; up to {} are possible", key.size,
+                       Surroundings::most_size);
+  }
+  const ReflectionLayers layers = plan_reflection_layers(*scene_, key.object, key.size);
+  const SoftwareOptions plain{.samples = 1,
+                              .anisotropic = false,
+                              .background = key.background,
+                              .shadows = key.shadows,
+                              .shadow_size = key.shadow_size,
+                              .tile = options.tile};
+  std::array<FloatImage, 2> maps;
+  for (size_t side = 0; side < maps.size(); ++side) {
+    SoftwareStats stats;
+    maps[side] = FloatImage(layers.camera.size(), 3);
+    draw_color(layers.camera, layers.worldFromMap[side], plain, key.object, maps[side], stats);
+  }
+  surroundings_key_ = key;
+  return surroundings_.emplace(layers, maps);
 }
 
 void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, int tile,
@@ -147,7 +178,7 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
   for (const Channel channel : wanted) images.emplace(channel, make_image(channel_info(channel), camera.size()));
   const auto color = images.find(Channel::color);
   if (color != images.end()) {
-    draw_color(camera, worldFromCamera, options, std::get<FloatImage>(color->second), took);
+    draw_color(camera, worldFromCamera, options, std::nullopt, std::get<FloatImage>(color->second), took);
   }
   if (images.size() > (color != images.end() ? 1u : 0u)) {
     took.tiles = 0;
@@ -155,6 +186,7 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
   }
   took.bytes = finder_.bytes() + ray_trees_.bytes() + shadow_depths_.depths().size() * sizeof(float);
   for (const MipTexture& texture : textures_) took.bytes += texture.bytes();
+  if (surroundings_) took.bytes += surroundings_->bytes();
   if (stats != nullptr) *stats = took;
   return images;
 }

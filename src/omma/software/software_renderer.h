@@ -18,6 +18,7 @@
 #include "omma/software/mip_texture.h"
 #include "omma/software/ray_trees.h"
 #include "omma/software/shadow_depths.h"
+#include "omma/software/surroundings.h"
 #include "omma/visibility/finder.h"
 
 namespace omma {
@@ -28,7 +29,9 @@ struct SoftwareOptions {
   bool anisotropic = true;                ///< up to sixteen samples of a texture along a pixel's longer axis
   std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
   Shadows shadows = Shadows::off;
-  int shadow_size = 1024;  ///< texels along a shadow map, 16 or more
+  int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
+  std::optional<int> reflect{};  ///< the object whose surfaces show what surrounds it
+  int reflection_size = 512;     ///< texels along each of its two maps, 16 or more
   /// Pixels along the side of what is drawn at once, 0 for a good number. It bounds the memory, not the picture.
   int tile = 0;
 };
@@ -51,20 +54,24 @@ class SoftwareRenderer {
   void update() {
     finder_.update();
     shadow_depths_.scene_changed();
+    surroundings_.reset();
   }
 
   /// The image of every channel asked for, of the camera's size: colour linear, lengths in metres, `normal` and
   /// `position` in the world's frame, what channels() says where nothing is. `worldFromCamera` is rigid. Runs on all
-  /// cores; the result is the same on any number of them. Throws CommandError for no channel, no sample and a negative
-  /// tile, MachineError for textures and shadow maps too large.
+  /// cores; the result is the same on any number of them. Throws CommandError for no channel, no sample, a negative
+  /// tile and an object that is not there, MachineError for textures and maps too large.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const SoftwareOptions& options = {},
                                   SoftwareStats* stats = nullptr);
 
  private:
   void prepare_textures();
+  /// Without `hidden_object`.
   void draw_color(const Camera& camera, const glm::dmat4& worldFromCamera, const SoftwareOptions& options,
-                  FloatImage& image, SoftwareStats& stats);
+                  std::optional<int> hidden_object, FloatImage& image, SoftwareStats& stats);
+  /// What surrounds options.reflect, drawn where it is not there.
+  const Surroundings& surroundings_of(const SoftwareOptions& options);
   void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, int tile,
                      std::map<Channel, Image>& images, SoftwareStats& stats);
 
@@ -73,6 +80,16 @@ class SoftwareRenderer {
   std::vector<MipTexture> textures_;
   RayTrees ray_trees_;
   ShadowDepths shadow_depths_;
+  /// What surroundings depend on beside the scene.
+  struct SurroundingsKey {
+    int object, size;
+    std::optional<glm::vec3> background;
+    Shadows shadows;
+    int shadow_size;
+    friend bool operator==(const SurroundingsKey&, const SurroundingsKey&) = default;
+  };
+  SurroundingsKey surroundings_key_{};
+  std::optional<Surroundings> surroundings_;
 };
 
 }  // namespace omma

@@ -7,10 +7,11 @@ glm::vec4 linear(const glm::u8vec4& color) { return glm::vec4(color) * (1.0f / 2
 
 }  // namespace
 
-RecordInstance::RecordInstance(const SeenInstance& seen, const glm::dmat3& cameraFromWorld)
+RecordInstance::RecordInstance(const SeenInstance& seen, const glm::dmat3& cameraFromWorld, bool shows_surroundings)
     : mesh(seen.mesh),
       first_triangle(seen.first_triangle),
       material(seen.material),
+      reflects(shows_surroundings),
       cameraFromObject(seen.cameraFromObject),
       directions(glm::dmat3(seen.cameraFromObject)),
       normals(cameraFromWorld * seen.normals) {}

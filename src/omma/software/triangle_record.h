@@ -23,11 +23,12 @@ struct TriangleRecord {
 
 /// Single precision's view of an instance, for records.
 struct RecordInstance {
-  RecordInstance(const SeenInstance& seen, const glm::dmat3& cameraFromWorld);
+  RecordInstance(const SeenInstance& seen, const glm::dmat3& cameraFromWorld, bool shows_surroundings);
 
   const Mesh* mesh;
   uint32_t first_triangle;
   int32_t material;
+  bool reflects;  ///< shows what surrounds it
   glm::dmat4 cameraFromObject;
   glm::mat3 directions;  ///< to the camera frame
   glm::mat3 normals;     ///< to the camera frame, by the cofactors

@@ -89,6 +89,8 @@ std::map<Channel, Image> Renderer::Parts::render_without_gl(const Camera& camera
                             .background = options.background,
                             .shadows = options.shadows,
                             .shadow_size = options.shadow_size,
+                            .reflect = options.reflect,
+                            .reflection_size = options.reflection_size,
                             .tile = options.tile};
   auto pictures = software->render(camera, worldFromCamera, wanted, how, &took);
   stats.renderer =
@@ -130,7 +132,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
   RenderStats took;
   Occasion occasion;
   occasion.shaded = std::find(wanted.begin(), wanted.end(), Channel::color) != wanted.end();
-  occasion.plain = effects_of(options).empty() && options.show.empty() && !options.reflect.has_value();
+  occasion.plain = effects_of(options).empty() && options.show.empty();
   if (options.technique == "auto" && occasion.shaded && occasion.plain) {
     took.setup_ms += milliseconds([&] { occasion.gpu = parts_->has_gpu(); });
   }

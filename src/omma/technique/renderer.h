@@ -37,8 +37,8 @@ class Renderer {
   void update();
 
   /// The image of every channel asked for. `worldFromCamera` is rigid. `visibility:cpu` opens no OpenGL but for
-  /// effects and reflections; for colour, `auto` opens it to see whether there is a GPU. Throws CommandError
-  /// for options that make no sense or do not go together, MachineError for what this driver cannot do.
+  /// effects; for colour, `auto` opens it to see whether there is a GPU. Throws CommandError for options that make no
+  /// sense or do not go together, MachineError for what this driver cannot do.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const RenderOptions& options,
                                   RenderStats* stats = nullptr);

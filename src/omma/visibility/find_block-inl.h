@@ -99,7 +99,7 @@ class BlockFinder {
                                 all(node.half[0][lane], node.half[1][lane], node.half[2][lane]), axis,
                                 load(block_->sin), load(block_->cos), body, apex_of<has_origins>(body, origins_), near);
     const uint32_t leaves = bits(meets & (near * load(farthest_) <= all(1.0f + slack))) & block_->leaf_mask;
-    if (leaves == 0) return;
+    if (leaves == 0 || part.hidden) return;
     if (part.front != 0.0f) {
       visit_triangles(turned_.turn(*block_, origins_, farthest_of_block_, body, part, cluster), leaves, body, part,
                       cluster);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,10 @@ class Finder {
 
   /// Follows the scene's moved instances and deformed vertices; nothing is sorted again. Call set_view afterwards.
   void update() { scene_.update(); }
-  /// Makes everything relative to the camera.
-  void set_view(const glm::dmat4& worldFromCamera) { scene_.set_view(worldFromCamera); }
+  /// Makes everything relative to the camera. No ray meets `hidden_object`, but what is behind it.
+  void set_view(const glm::dmat4& worldFromCamera, std::optional<int> hidden_object = std::nullopt) {
+    scene_.set_view(worldFromCamera, hidden_object);
+  }
 
   /// The nearest triangle of every ray, rows from the top: x its id over all instances, y its instance, both
   /// meets_nothing where there is none; y is no_ray where there is no ray. `distances` is empty or as long: metres,

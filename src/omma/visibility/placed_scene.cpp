@@ -51,7 +51,7 @@ void PlacedScene::build_top() {
   top_ = build_box_tree(boxes, 1);
 }
 
-void PlacedScene::set_view(const glm::dmat4& worldFromCamera) {
+void PlacedScene::set_view(const glm::dmat4& worldFromCamera, std::optional<int> hidden_object) {
   const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
   const size_t count = top_.leaves.size();
   std::vector<const Placement*> placements(count);
@@ -64,7 +64,7 @@ void PlacedScene::set_view(const glm::dmat4& worldFromCamera) {
   parts_.assign(first_part.back(), {});
   std::vector<Box> boxes(count);
   tbb::parallel_for(size_t{0}, count, [&](size_t leaf) {
-    boxes[leaf] = place(*placements[leaf], cameraFromWorld, placed_[leaf], &parts_[first_part[leaf]]);
+    boxes[leaf] = place(*placements[leaf], cameraFromWorld, hidden_object, placed_[leaf], &parts_[first_part[leaf]]);
   });
   // The tree's leaves, unlike those of a body, change with every view.
   top_.refit(boxes);
@@ -80,8 +80,8 @@ void PlacedScene::set_view(const glm::dmat4& worldFromCamera) {
   for (glm::vec3& column : top_frame_.columns) column *= top_frame_.scale;
 }
 
-Box PlacedScene::place(const Placement& placement, const glm::dmat4& cameraFromWorld, PlacedBody& placed,
-                       PlacedPart* parts) const {
+Box PlacedScene::place(const Placement& placement, const glm::dmat4& cameraFromWorld, std::optional<int> hidden_object,
+                       PlacedBody& placed, PlacedPart* parts) const {
   const Body& body = bodies_.bodies()[placement.body];
   const glm::dmat4 cameraFromObject = cameraFromWorld * scene_->instances[placement.instances.front()].worldFromObject;
   // What is rounded are the terms of matrix times point, which may be larger than their sum.
@@ -115,7 +115,8 @@ Box PlacedScene::place(const Placement& placement, const glm::dmat4& cameraFromW
                 material.alpha,
                 material.alpha_cutoff,
                 instance.first_triangle,
-                placement.instances[i]};
+                placement.instances[i],
+                instance.object == hidden_object};
     placed.blended = material.alpha == Material::Alpha::blend;
   }
   return to_box(to_bounds(body.bounds).transformed(cameraFromObject));

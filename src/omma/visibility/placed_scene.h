@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct PlacedPart {
   float cutoff = 0.0f;  ///< masked materials: the coverage that stops a ray
   uint32_t first_triangle = 0;
   uint32_t instance = 0;  ///< in the scene
+  bool hidden = false;    ///< nothing meets it
 };
 
 /// A body, ready for the finder. Its lengths are metres times `scale`, a power of two that brings everything it holds
@@ -43,7 +45,8 @@ class PlacedScene {
 
   /// Follows the scene's moved instances and deformed vertices.
   void update();
-  void set_view(const glm::dmat4& worldFromCamera);
+  /// `hidden_object`, if any, is not there.
+  void set_view(const glm::dmat4& worldFromCamera, std::optional<int> hidden_object = std::nullopt);
 
   const Scene& scene() const { return *scene_; }
   /// Over the bodies, in the camera frame, metres. Empty when nothing is there.
@@ -58,7 +61,8 @@ class PlacedScene {
  private:
   void build_top();
   /// Returns the body's box in the camera frame.
-  Box place(const Placement& placement, const glm::dmat4& cameraFromWorld, PlacedBody& placed, PlacedPart* parts) const;
+  Box place(const Placement& placement, const glm::dmat4& cameraFromWorld, std::optional<int> hidden_object,
+            PlacedBody& placed, PlacedPart* parts) const;
 
   const Scene* scene_;
   Bodies bodies_;
