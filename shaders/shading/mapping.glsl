@@ -4,22 +4,33 @@ struct Mapping {
 };
 
 // How far each coordinate changes over a pixel.
-vec2 footprint_of(Mapping mapping) {
-  return sqrt(mapping.dx * mapping.dx + mapping.dy * mapping.dy);
+SHADING vec2 footprint_of(Mapping mapping) {
+  return vec2(length(vec2(mapping.dx.x, mapping.dy.x)), length(vec2(mapping.dx.y, mapping.dy.y)));
+}
+
+// The coordinates of a vector along two of the axes.
+SHADING vec2 along_axes(vec3 v, truth level, truth sideways) {
+  return choose(level, vec2(v.x, v.z), choose(sideways, vec2(v.z, v.y), vec2(v.x, v.y)));
 }
 
 // World metres along the two axes that the surface faces least: the second is up wherever it is no floor. Where it
 // faces two alike, rounding must not choose.
-Mapping world_mapping(Surface surface) {
+SHADING Mapping world_mapping(Surface surface) {
   mat3 world = mat3(frame.worldFromCamera);
-  vec3 at = (frame.worldFromCamera * vec4(surface.position, 1.0)).xyz;
-  vec3 dx = world * surface.position_dx, dy = world * surface.position_dy;
+  vec3 at = xyz_of(frame.worldFromCamera * vec4(surface.position, 1.0));
   vec3 facing = abs(world * surface.normal) * vec3(1.002, 1.001, 1.0);
-  if (facing.y > max(facing.x, facing.z)) return Mapping(at.xz, dx.xz, dy.xz);
-  if (facing.x > facing.z) return Mapping(at.zy, dx.zy, dy.zy);
-  return Mapping(at.xy, dx.xy, dy.xy);
+  truth level = facing.y > max(facing.x, facing.z), sideways = facing.x > facing.z;
+  Mapping mapping;
+  mapping.at = along_axes(at, level, sideways);
+  mapping.dx = along_axes(world * surface.position_dx, level, sideways);
+  mapping.dy = along_axes(world * surface.position_dy, level, sideways);
+  return mapping;
 }
 
-Mapping uv_mapping(Surface surface) {
-  return Mapping(surface.uv, surface.uv_dx, surface.uv_dy);
+SHADING Mapping uv_mapping(Surface surface) {
+  Mapping mapping;
+  mapping.at = surface.uv;
+  mapping.dx = surface.uv_dx;
+  mapping.dy = surface.uv_dy;
+  return mapping;
 }

@@ -12,6 +12,13 @@
 #endif
 #ifdef EFFECTS
 #include "shading/effects.glsl"
+#else
+vec4 paint(Surface surface, vec4 color) {
+  return color;
+}
+vec4 draw_over(Surface surface, vec4 color) {
+  return color;
+}
 #endif
 #endif
 
@@ -149,9 +156,5 @@ SHADING vec4 lit(Surface surface, vec4 base) {
 
 // What the camera sees of a surface: linear radiance and coverage.
 SHADING vec4 shade(Surface surface) {
-#ifdef EFFECTS
   return draw_over(surface, lit(surface, paint(surface, surface_color(surface))));
-#else
-  return lit(surface, surface_color(surface));
-#endif
 }

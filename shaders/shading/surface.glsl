@@ -16,7 +16,7 @@ struct Surface {
 #if defined(SHADOWS) || defined(__cplusplus)
   vec3 plane;  // of its triangle: a normal of any length, to either side
 #endif
-#ifdef EFFECTS
+#if defined(EFFECTS) || defined(__cplusplus)
   vec3 position_dx, position_dy;  // metres per pixel to the right and down
   vec3 barycentric, barycentric_dx, barycentric_dy;
 #endif

@@ -89,7 +89,17 @@ HWY_INLINE real inversesqrt(const real& a) {
 HWY_INLINE real mix(const real& a, const real& b, const real& part) { return mul_add(part, b - a, a); }
 HWY_INLINE real clamp(const real& a, const real& low, const real& high) { return min(max(a, low), high); }
 HWY_INLINE real fract(const real& a) { return a - floor(a); }
-HWY_INLINE real exp2(const real& a) { return exp(a * real(0.693147180559945)); }
+/// Exact for whole numbers.
+HWY_INLINE real exp2(const real& a) {
+  const IntTag d;
+  const real bounded = clamp(a, -126.0f, 127.0f), whole = floor(bounded);
+  real power;
+  for (size_t k = 0; k < registers; ++k) {
+    const auto exponent = hn::Add(hn::ConvertTo(d, whole.v[k]), hn::Set(d, 127));
+    power.v[k] = hn::BitCast(FloatTag(), hn::ShiftLeft<23>(exponent));
+  }
+  return exp((bounded - whole) * real(0.693147180559945)) * power;
+}
 /// Of what is not negative; zero at zero.
 HWY_INLINE real pow(const real& a, const real& power) {
   return HWY_NAMESPACE::choose(a > real(1e-37), exp2(log2(max(a, real(1e-37))) * power), real(0.0f));
@@ -186,6 +196,7 @@ OMMA_VECTOR(vec4)
 HWY_INLINE vec3 cross(const vec3& a, const vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+HWY_INLINE vec3 abs(const vec3& a) { return {abs(a.x), abs(a.y), abs(a.z)}; }
 HWY_INLINE vec3 reflect(const vec3& a, const vec3& normal) { return a - normal * (real(2.0f) * dot(normal, a)); }
 
 /// Sixteen places in an array.
@@ -226,6 +237,9 @@ struct mat3 {
   HWY_INLINE const vec3& operator[](int i) const { return column[i]; }
 };
 HWY_INLINE vec3 operator*(const mat3& m, const vec3& v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z; }
+HWY_INLINE vec4 operator*(const mat4& m, const vec4& v) {
+  return m.column[0] * v.x + m.column[1] * v.y + m.column[2] * v.z + m.column[3] * v.w;
+}
 HWY_INLINE vec3 operator*(const vec3& v, const mat3& m) { return {dot(v, m[0]), dot(v, m[1]), dot(v, m[2])}; }
 HWY_INLINE mat3 transpose(const mat3& m) {
   return {{m[0].x, m[1].x, m[2].x}, {m[0].y, m[1].y, m[2].y}, {m[0].z, m[1].z, m[2].z}};

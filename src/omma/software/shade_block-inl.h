@@ -139,9 +139,14 @@ HWY_INLINE vec4 vec4_of(const Records& records, size_t field) {
   return {vec3_of(records, field), records(field + 3)};
 }
 
+/// Which parts of a surface are wanted.
+struct SurfaceParts {
+  bool tangents, colors, changes;
+};
+
 /// Where rays meet triangles, as in shaders/technique/triangle_surface.glsl.
 template <typename Records>
-HWY_INLINE Shader::Surface surface_of(const Records& t, bool tangents, bool colors, const vec3& direction,
+HWY_INLINE Shader::Surface surface_of(const Records& t, const SurfaceParts& parts, const vec3& direction,
                                       const vec3& dx, const vec3& dy) {
   const mat3 planes(vec3_of(t, OMMA_FIELD(sum)), vec3_of(t, OMMA_FIELD(plane_b)), vec3_of(t, OMMA_FIELD(plane_c)));
   const vec3 inside = direction * planes, inside_dx = dx * planes, inside_dy = dy * planes;
@@ -164,22 +169,31 @@ HWY_INLINE Shader::Surface surface_of(const Records& t, bool tangents, bool colo
   surface.uv_dx = uv_b * bc_dx.x + uv_c * bc_dx.y;
   surface.uv_dy = uv_b * bc_dy.x + uv_c * bc_dy.y;
   surface.tangent = vec4(real(0.0f));
-  if (tangents) {
+  if (parts.tangents) {
     const vec4 tangent = vec4_of(t, OMMA_FIELD(tangent));
     surface.tangent = {
         xyz_of(tangent) + vec3_of(t, OMMA_FIELD(tangent_b)) * bc.x + vec3_of(t, OMMA_FIELD(tangent_c)) * bc.y,
         tangent.w};
   }
   surface.color = vec4(real(1.0f));
-  if (colors) {
+  if (parts.colors) {
     surface.color =
         vec4_of(t, OMMA_FIELD(color)) + vec4_of(t, OMMA_FIELD(color_b)) * bc.x + vec4_of(t, OMMA_FIELD(color_c)) * bc.y;
+  }
+  if (parts.changes) {
+    const real distance = t(OMMA_FIELD(volume)) * scale;
+    surface.position_dx = (dx - direction * (inside_dx.x * scale)) * distance;
+    surface.position_dy = (dy - direction * (inside_dy.x * scale)) * distance;
+    surface.barycentric = vec3(real(1.0f) - bc.x - bc.y, bc);
+    surface.barycentric_dx = vec3(-bc_dx.x - bc_dx.y, bc_dx);
+    surface.barycentric_dy = vec3(-bc_dy.x - bc_dy.y, bc_dy);
   }
   return surface;
 }
 
 /// `yes` where the condition holds.
-HWY_INLINE Shader::Surface choose(const truth& condition, const Shader::Surface& yes, const Shader::Surface& no) {
+HWY_INLINE Shader::Surface choose(const truth& condition, const Shader::Surface& yes, const Shader::Surface& no,
+                                  const SurfaceParts& parts) {
   Shader::Surface surface;
   surface.position = choose(condition, yes.position, no.position);
   surface.normal = choose(condition, yes.normal, no.normal);
@@ -189,12 +203,19 @@ HWY_INLINE Shader::Surface choose(const truth& condition, const Shader::Surface&
   surface.uv_dx = choose(condition, yes.uv_dx, no.uv_dx);
   surface.uv_dy = choose(condition, yes.uv_dy, no.uv_dy);
   surface.color = choose(condition, yes.color, no.color);
+  if (parts.changes) {
+    surface.position_dx = choose(condition, yes.position_dx, no.position_dx);
+    surface.position_dy = choose(condition, yes.position_dy, no.position_dy);
+    surface.barycentric = choose(condition, yes.barycentric, no.barycentric);
+    surface.barycentric_dx = choose(condition, yes.barycentric_dx, no.barycentric_dx);
+    surface.barycentric_dy = choose(condition, yes.barycentric_dy, no.barycentric_dy);
+  }
   return surface;
 }
 
 /// Of sixteen fragments from `at` on.
-HWY_INLINE Shader::Surface surfaces_of(const Fragments& fragments, uint32_t at, bool tangents, const vec3& direction,
-                                       const RayChanges& changes) {
+HWY_INLINE Shader::Surface surfaces_of(const Fragments& fragments, uint32_t at, const SurfaceParts& parts,
+                                       const vec3& direction, const RayChanges& changes) {
   constexpr size_t record_floats = sizeof(TriangleRecord) / sizeof(float);
   /// Computing for all sixteen what a few are of is less work than fetching for each what its own triangle has.
   constexpr int few = 4;
@@ -210,20 +231,20 @@ HWY_INLINE Shader::Surface surfaces_of(const Fragments& fragments, uint32_t at, 
   const vec3 dy = in_a_row ? changes.dy_from(pixels[0]) : changes.dy(pixels);
   const auto* records = reinterpret_cast<const float*>(fragments.records().data());
   const auto of_one = [&](uint32_t number) HWY_ATTR {
-    return surface_of(OneRecord{records + number * record_floats}, tangents, fragments.has_colors(), direction, dx, dy);
+    return surface_of(OneRecord{records + number * record_floats}, parts, direction, dx, dy);
   };
   if (changed <= few) {
     Shader::Surface surface = of_one(record[0]);
     for (int i = 1; i < 16 && changed > 0; ++i) {
       if (record[i] == record[i - 1]) continue;
       --changed;
-      surface = choose(from_bits(0xffffu << i & 0xffffu), of_one(record[i]), surface);
+      surface = choose(from_bits(0xffffu << i & 0xffffu), of_one(record[i]), surface, parts);
     }
     return surface;
   }
   int32_t places[16];
   for (int i = 0; i < 16; ++i) places[i] = int32_t(record[i] * record_floats);
-  return surface_of(OwnRecords{records, places}, tangents, fragments.has_colors(), direction, dx, dy);
+  return surface_of(OwnRecords{records, places}, parts, direction, dx, dy);
 }
 
 void shade_fragments(const ShadedScene& scene, const RayBlock& block, const SquareBorder& border,
@@ -233,11 +254,11 @@ void shade_fragments(const ShadedScene& scene, const RayBlock& block, const Squa
   for (const FragmentGroup& group : fragments.groups()) {
     const bool is_background = group.material == background_material;
     if (!is_background) shader.set_material(scene, group.material, group.reflects);
+    const SurfaceParts parts{shader.needs_tangents(), fragments.has_colors(), shader.needs_changes()};
     for (uint32_t at = group.first; at < group.first + group.count; at += 16) {
       const vec3 direction(loaded(&fragments.x[at]), loaded(&fragments.y[at]), loaded(&fragments.z[at]));
-      const vec4 color = is_background
-                             ? vec4(shader.background(direction), real(1.0f))
-                             : shader.shade(surfaces_of(fragments, at, shader.needs_tangents(), direction, changes));
+      const vec4 color = is_background ? vec4(shader.background(direction), real(1.0f))
+                                       : shader.shade(surfaces_of(fragments, at, parts, direction, changes));
       for (size_t k = 0; k < registers; ++k) {
         hn::StoreU(color.x.v[k], FloatTag(), &fragments.red[at + k * lanes]);
         hn::StoreU(color.y.v[k], FloatTag(), &fragments.green[at + k * lanes]);

@@ -8,6 +8,7 @@
 
 #include "omma/scene/lights.h"
 #include "omma/scene/scene.h"
+#include "omma/shading/effects.h"
 #include "omma/shading/shadow_layers.h"
 #include "omma/software/fragments.h"
 #include "omma/software/mip_texture.h"
@@ -23,6 +24,7 @@ struct ShadedScene {
   std::span<const MipTexture> textures;   ///< by the scene's
   std::optional<glm::vec3> background{};  ///< linear; nothing: a sky
   bool anisotropic = true;
+  std::span<const Effect> effects{};
   std::vector<ShadowMapRecord> shadow_maps{};  ///< as the lights count them
   const float* shadow_depths = nullptr;        ///< of ShadowDepths
   int shadow_size = 0;                         ///< texels along a map

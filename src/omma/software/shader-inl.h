@@ -9,7 +9,9 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
+#include "omma/software/effect_parameters-inl.h"
 #include "omma/software/sample_surroundings-inl.h"
 #include "omma/software/sample_texture-inl.h"
 #include "omma/software/shade_fragments.h"
@@ -32,6 +34,7 @@ class Shader {
     frame.background = vec4(scene.background ? glm::vec4(*scene.background, 1.0f) : glm::vec4(0.0f));
     frame.counts.x = uint(scene.lights.size());
     lights_ = scene.lights.data();
+    effects_ = scene.effects;
     shadow_maps_ = scene.shadow_maps;
     shadow_depths_ = scene.shadow_depths;
     shadow_size_ = scene.shadow_size;
@@ -61,10 +64,18 @@ class Shader {
     material.parameters = vec4(glm::vec4(of.metallic, of.roughness, of.alpha_cutoff, 0.0f));
   }
 
+  /// What of a surface is used; all else may hold anything.
   bool needs_tangents() const { return has.normal_texture; }
+  bool needs_changes() const { return !effects_.empty(); }
 
 #include "shading/reflection.glsl"
 #include "shading/shadow.glsl"
+
+#include "shading/lines.glsl"
+#include "shading/mapping.glsl"
+
+// All files of shaders/shading/effects.
+#include "omma/software/effect_files.inc"
 
 #include "shading/material.glsl"
 
@@ -101,6 +112,24 @@ class Shader {
     return sample_surroundings(*surroundings_, side, at, level);
   }
 
+  HWY_NOINLINE vec4 with_effect(const Effect& effect, const Surface& surface, const vec4& color) {
+    const std::string_view name = effect.info->name;
+#define OMMA_EFFECT(type, function) \
+  if (name == #function) return function(parameters_of<type>(effect), surface, color);
+#include "omma/software/effect_list.inc"
+#undef OMMA_EFFECT
+    return color;
+  }
+  vec4 with_effects(bool that_paint, const Surface& surface, vec4 color) {
+    for (const Effect& effect : effects_) {
+      if (effect.info->paints == that_paint) color = with_effect(effect, surface, color);
+    }
+    return color;
+  }
+  /// As in shading/effects.glsl.
+  vec4 paint(const Surface& surface, const vec4& color) { return with_effects(true, surface, color); }
+  vec4 draw_over(const Surface& surface, const vec4& color) { return with_effects(false, surface, color); }
+
   /// As in shading/texture.glsl.
   HWY_NOINLINE vec4 sample_filtered(const MipTexture* texture, const vec2& uv, const vec2& dx, const vec2& dy) {
     const vec2 size{real(float(texture->width)), real(float(texture->height))};
@@ -133,6 +162,7 @@ class Shader {
   MaterialParts has;
   const MipTexture *base_color_texture, *normal_texture, *metallic_roughness_texture, *emissive_texture;
   const omma::LightRecord* lights_;
+  std::span<const Effect> effects_;
   std::span<const ShadowMapRecord> shadow_maps_;
   const float* shadow_depths_;
   int shadow_size_;

@@ -75,6 +75,7 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   ShadedScene shaded{.scene = scene_, .worldFromCamera = worldFromCamera, .lights = {}, .textures = textures_};
   shaded.background = options.background;
   shaded.anisotropic = options.anisotropic;
+  shaded.effects = options.effects;
   for (const Light& light : lights_of(*scene_)) shaded.lights.push_back(light_record(light, cameraFromWorld));
   std::vector<RecordInstance> instances;
   for (const SeenInstance& seen : seen_instances(*scene_, cameraFromWorld)) {
@@ -172,6 +173,7 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
                                                   SoftwareStats* stats) {
   if (wanted.empty()) throw CommandError("no channel is asked for");
   if (options.samples < 1) throw CommandError("{} samples per pixel; 1 or more make a picture", options.samples);
+  check_effects(options.effects);
   if (options.tile < 0) throw CommandError("a tile of {} pixels; 1 or more make one", options.tile);
   SoftwareStats took;
   std::map<Channel, Image> images;

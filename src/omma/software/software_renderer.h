@@ -15,6 +15,7 @@
 #include "omma/camera/camera.h"
 #include "omma/image/image.h"
 #include "omma/scene/scene.h"
+#include "omma/shading/effects.h"
 #include "omma/software/mip_texture.h"
 #include "omma/software/ray_trees.h"
 #include "omma/software/shadow_depths.h"
@@ -28,6 +29,7 @@ struct SoftwareOptions {
   int samples = 4;                        ///< per pixel, 1 or more
   bool anisotropic = true;                ///< up to sixteen samples of a texture along a pixel's longer axis
   std::optional<glm::vec3> background{};  ///< linear RGB where a ray meets nothing; nothing: a sky
+  std::vector<Effect> effects{};          ///< one after another, as check_effects accepts them
   Shadows shadows = Shadows::off;
   int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
   std::optional<int> reflect{};  ///< the object whose surfaces show what surrounds it
@@ -60,7 +62,8 @@ class SoftwareRenderer {
   /// The image of every channel asked for, of the camera's size: colour linear, lengths in metres, `normal` and
   /// `position` in the world's frame, what channels() says where nothing is. `worldFromCamera` is rigid. Runs on all
   /// cores; the result is the same on any number of them. Throws CommandError for no channel, no sample, a negative
-  /// tile and an object that is not there, MachineError for textures and maps too large.
+  /// tile, effects that check_effects refuses and an object that is not there, MachineError for textures and maps too
+  /// large.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const SoftwareOptions& options = {},
                                   SoftwareStats* stats = nullptr);

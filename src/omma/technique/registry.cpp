@@ -71,7 +71,7 @@ std::string what_works_without_gl() {
       if (variant.without_gl) techniques += fmt::format(" and {}:{}", entry->info.name, variant.name);
     }
   }
-  return fmt::format("without OpenGL, technique auto{} draw everything but effects", techniques);
+  return fmt::format("without OpenGL, technique auto{} draw everything but --show pieces and overdraw", techniques);
 }
 
 ChosenTechnique choose_technique(std::string_view text, const Camera& camera, const Occasion& occasion) {

@@ -87,6 +87,7 @@ std::map<Channel, Image> Renderer::Parts::render_without_gl(const Camera& camera
   const SoftwareOptions how{.samples = options.samples,
                             .anisotropic = options.filter == Filter::anisotropic,
                             .background = options.background,
+                            .effects = effects_of(options),
                             .shadows = options.shadows,
                             .shadow_size = options.shadow_size,
                             .reflect = options.reflect,
@@ -132,7 +133,7 @@ std::map<Channel, Image> Renderer::render(const Camera& camera, const glm::dmat4
   RenderStats took;
   Occasion occasion;
   occasion.shaded = std::find(wanted.begin(), wanted.end(), Channel::color) != wanted.end();
-  occasion.plain = effects_of(options).empty() && options.show.empty();
+  occasion.plain = !options.show.contains(Show::pieces) && !options.show.contains(Show::overdraw);
   if (options.technique == "auto" && occasion.shaded && occasion.plain) {
     took.setup_ms += milliseconds([&] { occasion.gpu = parts_->has_gpu(); });
   }
