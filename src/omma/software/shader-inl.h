@@ -159,7 +159,7 @@ class Shader {
   struct {
     vec4 base_color, emissive, parameters;
   } material;
-  MaterialParts has;
+  MaterialParts has{};  ///< none before set_material
   const MipTexture *base_color_texture, *normal_texture, *metallic_roughness_texture, *emissive_texture;
   const omma::LightRecord* lights_;
   std::span<const Effect> effects_;

@@ -22,7 +22,7 @@ struct ChosenTechnique {
 /// What `auto` goes by.
 struct Occasion {
   bool shaded = true;  ///< colour is asked for
-  bool plain = true;   ///< shows no pieces and no overdraw, which need OpenGL
+  bool plain = true;   ///< nothing is shown over the picture that needs OpenGL: pieces, overdraw
   bool gpu = false;    ///< OpenGL is at hand, and not by software
 };
 

@@ -36,9 +36,9 @@ class Renderer {
   /// Takes over what set_time changed: transforms, lights, deformed vertices.
   void update();
 
-  /// The image of every channel asked for. `worldFromCamera` is rigid. `visibility:cpu` opens no OpenGL but for
-  /// effects; for colour, `auto` opens it to see whether there is a GPU. Throws CommandError for options that make no
-  /// sense or do not go together, MachineError for what this driver cannot do.
+  /// The image of every channel asked for. `worldFromCamera` is rigid. `visibility:cpu` opens no OpenGL but to
+  /// show pieces; for colour, `auto` opens it to see whether there is a GPU. Throws CommandError for options that make
+  /// no sense or do not go together, MachineError for what this driver cannot do.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const RenderOptions& options,
                                   RenderStats* stats = nullptr);
