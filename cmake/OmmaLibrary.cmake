@@ -19,6 +19,15 @@ if(OMMA_SANITIZE)
   target_link_options(omma_options INTERFACE $<BUILD_INTERFACE:-fsanitize=${OMMA_SANITIZE}>)
 endif()
 
+# Sources that are compiled for every SIMD instruction set. With sanitizers that takes minutes for each, and one of them
+# beside the portable code shows as much as all.
+function(omma_simd_sources)
+  if(OMMA_SANITIZE)
+    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS
+                                                "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+  endif()
+endfunction()
+
 set_property(GLOBAL PROPERTY OMMA_LIBRARIES omma_options)
 
 function(omma_library name)
