@@ -193,10 +193,13 @@ TEST_F(RegistryTest, WhatAutoTakesDrawsWhatRaycastDraws) {
   }
   cameras.push_back({"ray map", wavy_ray_map(160)});
   std::vector<RenderOptions> pictures(4);
+  // One sample where what is finer than a pixel depends on where in it a triangle is shaded. Lines get least, for they
+  // hang on how far apart the neighbours at the rim of a 360 degree lens are taken to be.
+  const double decibels_wanted[] = {60.0, 35.0, 60.0, 50.0};
+  for (int i = 0; i < 3; ++i) pictures[size_t(i)].samples = 1;
   pictures[0].shadows = Shadows::paraboloid;
   pictures[1].effects = {make_effect("hatching"), make_effect("wireframe")};
   pictures[2].reflect = ball;
-  pictures[2].samples = 1;
   pictures[3].samples = 7;
   pictures[3].filter = Filter::trilinear;
   for (const auto& [name, camera] : cameras) {
@@ -207,7 +210,7 @@ TEST_F(RegistryTest, WhatAutoTakesDrawsWhatRaycastDraws) {
       options.technique = "raycast";
       const double decibels = psnr(taken, draw_color(camera, pose, options));
       std::cout << fmt::format("{} {}: {:.1f} dB\n", name, i, decibels);
-      EXPECT_GT(decibels, i == 3 ? 50.0 : 60.0) << name << ", picture " << i;
+      EXPECT_GT(decibels, decibels_wanted[i]) << name << ", picture " << i;
     }
   }
 }

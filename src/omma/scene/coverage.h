@@ -7,8 +7,9 @@
 
 namespace omma {
 
-/// A blended surface is solid where it covers at least this much: in labels and distances, which cannot be blended.
-inline constexpr float label_alpha_cutoff = 0.5f;
+/// A blended surface is solid where it covers at least this much, a half: in labels, distances and shadows, which cannot
+/// be blended. A little less, because glass of just a half is common and interpolation loses some of it here and there.
+inline constexpr float label_alpha_cutoff = 0.4999f;
 
 /// Base colour's alpha times the vertices' times the texture's finest level, bilinear; 0 to 1. `u` and `v` are the
 /// barycentric weights of the triangle's second and third corner.
