@@ -3,7 +3,6 @@ layout(binding = 6) uniform usamplerBuffer attributes;
 layout(binding = 7) uniform samplerBuffer colors;
 layout(binding = 26) uniform samplerBuffer alpha_texels;  // the textures' finest levels
 
-const float LABEL_ALPHA_CUTOFF = 0.5;
 const uint WRAP_REPEAT = 0u, WRAP_CLAMP = 1u, WRAP_MIRROR = 2u;
 
 // `i` is -1 or more: what % makes of less is undefined.

@@ -40,8 +40,7 @@ uint inverse_seen(uint ray) {
 bool is_hole(TurnedTriangle t, vec3 inside) {
 #ifdef HOLES
   if (t.part.alpha == ALPHA_OPAQUE) return false;
-  float cutoff = t.part.alpha == ALPHA_BLEND ? LABEL_ALPHA_CUTOFF : t.part.cutoff;
-  return !(coverage(t, inside / (inside.x + inside.y + inside.z)) >= cutoff);
+  return !(coverage(t, inside / (inside.x + inside.y + inside.z)) >= t.part.cutoff);
 #else
   return false;
 #endif

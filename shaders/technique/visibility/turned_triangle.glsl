@@ -10,12 +10,12 @@ layout(binding = 25) uniform usamplerBuffer part_texels;
 // An instance within a body.
 struct Part {
   float front;  // the sign that n . d has on the side that is seen; 0: both sides are
-  uint alpha;   // ALPHA_*
+  uint alpha;   // as Material::Alpha counts
   float cutoff;
   uint first_triangle, first_texel;
   uint record;
 };
-const uint ALPHA_OPAQUE = 0u, ALPHA_MASK = 1u, ALPHA_BLEND = 2u;
+const uint ALPHA_OPAQUE = 0u;
 const int PART_TEXELS = 3;
 const uint UNUSED = 0xffffffffu;
 // A triangle whose plane passes this near to the centre, against what its edges and distance would allow, has no

@@ -76,10 +76,8 @@ Materials::Materials(const Scene& scene, const gl::Context& context) : scene_(&s
   std::vector<std::byte> blocks(block_stride_ * scene.materials.size());
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
-    const bool blend = material.alpha == Material::Alpha::blend;
-    const MaterialBlock block{
-        material.base_color, glm::vec4(material.emissive, material.normal_scale),
-        glm::vec4(material.metallic, material.roughness, blend ? label_alpha_cutoff : material.alpha_cutoff, 0.0f)};
+    const MaterialBlock block{material.base_color, glm::vec4(material.emissive, material.normal_scale),
+                              glm::vec4(material.metallic, material.roughness, coverage_cutoff(material), 0.0f)};
     std::memcpy(blocks.data() + i * block_stride_, &block, sizeof block);
   }
   blocks_ = gl::Buffer(std::span<const std::byte>(blocks));

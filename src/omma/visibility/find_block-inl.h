@@ -221,13 +221,12 @@ class BlockFinder {
   uint32_t without_holes(uint32_t found, uint32_t triangle, const PlacedPart& part, const Floats* inside) const {
     alignas(64) float weight[3][16];
     for (int i = 0; i < 3; ++i) store(inside[i], weight[i]);
-    const float cutoff = part.alpha == Material::Alpha::blend ? label_alpha_cutoff : part.cutoff;
     for (uint32_t left = found; left != 0; left &= left - 1) {
       const int ray = std::countr_zero(left);
       const float sum = weight[0][ray] + weight[1][ray] + weight[2][ray];
       const float alpha =
           coverage(query_.scene->scene(), *part.mesh, triangle, weight[1][ray] / sum, weight[2][ray] / sum);
-      if (!(alpha >= cutoff)) found &= ~(1u << ray);
+      if (!(alpha >= part.cutoff)) found &= ~(1u << ray);
     }
     return found;
   }

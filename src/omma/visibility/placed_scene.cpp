@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "omma/scene/coverage.h"
+
 namespace omma {
 namespace {
 
@@ -113,7 +115,7 @@ Box PlacedScene::place(const Placement& placement, const glm::dmat4& cameraFromW
                 : mirrored            ? 1.0f
                                       : -1.0f,
                 material.alpha,
-                material.alpha_cutoff,
+                coverage_cutoff(material),
                 instance.first_triangle,
                 placement.instances[i],
                 instance.object == hidden_object};

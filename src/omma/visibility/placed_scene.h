@@ -18,7 +18,7 @@ struct PlacedPart {
   const Mesh* mesh = nullptr;
   float front = 0.0f;  ///< the sign that n · d has on the side that is seen; 0: both sides are
   Material::Alpha alpha = Material::Alpha::opaque;
-  float cutoff = 0.0f;  ///< masked materials: the coverage that stops a ray
+  float cutoff = 0.0f;  ///< the least coverage that stops a ray, where the material is not opaque
   uint32_t first_triangle = 0;
   uint32_t instance = 0;  ///< in the scene
   bool hidden = false;    ///< nothing meets it

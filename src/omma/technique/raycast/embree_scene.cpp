@@ -61,9 +61,8 @@ struct Candidate {
 bool stops(const MeshData& data, const Candidate& candidate, Solid solid) {
   if (data.cull && candidate.facing >= 0.0f) return false;
   if (data.alpha == Material::Alpha::opaque) return true;
-  const bool blended = data.alpha == Material::Alpha::blend;
-  if (blended && solid == Solid::opaque) return false;
-  const float cutoff = blended ? label_alpha_cutoff : data.scene->materials[size_t(data.mesh->material)].alpha_cutoff;
+  if (data.alpha == Material::Alpha::blend && solid == Solid::opaque) return false;
+  const float cutoff = coverage_cutoff(data.scene->materials[size_t(data.mesh->material)]);
   return coverage(*data.scene, *data.mesh, candidate.triangle, candidate.u, candidate.v) >= cutoff;
 }
 
