@@ -1,6 +1,7 @@
 // Scene files that hold nothing usable are refused, exit code 3; what can be repaired is repaired and said.
 #include "omma/base/file.h"
 #include "tests/cli/tool.h"
+#include "tests/places.h"
 
 namespace omma {
 namespace {
@@ -30,7 +31,7 @@ TEST_F(SceneFile, MissingEmptyAndGarbageAreRefused) {
 
 TEST_F(SceneFile, TruncatedFilesAreRefused) {
   const std::filesystem::path whole =
-      std::filesystem::path(OMMA_TEST_MODELS) / "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb";
+      std::filesystem::path(places::test_models) / "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb";
   if (!std::filesystem::exists(whole)) GTEST_SKIP() << "assimp-testmodels is not installed: " << whole;
   const std::string bytes = read_file(whole);
   for (const double share : {0.01, 0.1, 0.5, 0.9}) {
@@ -56,7 +57,7 @@ TEST_F(SceneFile, IndicesOutOfRangeAreRefused) {
 }
 
 TEST_F(SceneFile, BrokenModelsOfTheImporterAreRefused) {
-  const std::filesystem::path models = std::filesystem::path(OMMA_TEST_MODELS) / "glTF2";
+  const std::filesystem::path models = std::filesystem::path(places::test_models) / "glTF2";
   if (!std::filesystem::exists(models)) GTEST_SKIP() << "assimp-testmodels is not installed: " << models;
   for (const char* name : {"IndexOutOfRange/IndexOutOfRange.gltf", "MissingBin/BoxTextured.gltf"}) {
     ASSERT_TRUE(std::filesystem::exists(models / name)) << name;

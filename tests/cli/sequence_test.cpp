@@ -6,6 +6,7 @@
 #include "omma/base/file.h"
 #include "omma/image/read.h"
 #include "tests/cli/tool.h"
+#include "tests/places.h"
 
 namespace omma {
 namespace {
@@ -88,7 +89,7 @@ TEST_F(Sequence, KilledRunLeavesOnlyWholeFilesAndGoesOn) {
 }
 
 TEST_F(Sequence, FramesRunOverTheAnimationsTime) {
-  const fs::path scene = fs::path(OMMA_TEST_MODELS) / "Collada/box_nested_animation.dae";
+  const fs::path scene = fs::path(places::test_models) / "Collada/box_nested_animation.dae";
   if (!fs::exists(scene)) GTEST_SKIP() << "assimp-testmodels is not installed: " << scene;
   const std::vector<std::string> words{
       "render", scene.string(), "--camera", "equidistant", "--size", "48x48", "--samples",

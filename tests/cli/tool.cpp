@@ -11,6 +11,7 @@
 #include <cstdlib>
 
 #include "omma/base/file.h"
+#include "tests/places.h"
 
 namespace omma {
 namespace fs = std::filesystem;
@@ -29,7 +30,7 @@ namespace {
   ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
   ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
   ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-  if (::chdir(folder.c_str()) == 0) ::execv(OMMA_TOOL_PATH, words);
+  if (::chdir(folder.c_str()) == 0) ::execv(places::tool, words);
   ::_exit(127);
 }
 

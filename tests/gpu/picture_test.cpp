@@ -8,6 +8,7 @@
 #include "omma/math/pose.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
+#include "tests/places.h"
 
 namespace omma {
 namespace {
@@ -146,7 +147,7 @@ TEST_P(PictureTest, MovedGeometryIsSeenWhereItWent) {
 }
 
 TEST_P(PictureTest, ASkinnedFoxRunsAlikeEverywhere) {
-  const std::filesystem::path file = std::filesystem::path(OMMA_SHARED_DATA) / "fox.glb";
+  const std::filesystem::path file = std::filesystem::path(places::shared_data) / "fox.glb";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
   Scene scene = load_scene_file(file);
   renderer().load(scene);

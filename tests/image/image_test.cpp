@@ -7,13 +7,14 @@
 
 #include "omma/base/names.h"
 #include "tests/cli/tool.h"
+#include "tests/places.h"
 
 namespace omma {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path folder = fs::path(OMMA_SOURCE_DIR) / "tests/image";
+const fs::path folder = fs::path(places::source) / "tests/image";
 
 struct Case {
   std::string name, max, mean;
@@ -49,10 +50,10 @@ class ImageTest : public ToolTest, public testing::WithParamInterface<Case> {};
 TEST_P(ImageTest, LooksAsItShould) {
   const Case& image = GetParam();
   ASSERT_FALSE(image.max.empty() || image.mean.empty()) << "cases.txt: four fields are expected";
-  fs::create_directories(OMMA_IMAGE_OUTPUT);
+  fs::create_directories(places::image_output);
   const fs::path reference = folder / "reference" / (image.name + ".png");
-  const fs::path picture = fs::path(OMMA_IMAGE_OUTPUT) / (image.name + ".png");
-  const fs::path difference = fs::path(OMMA_IMAGE_OUTPUT) / (image.name + ".difference.png");
+  const fs::path picture = fs::path(places::image_output) / (image.name + ".png");
+  const fs::path difference = fs::path(places::image_output) / (image.name + ".difference.png");
   fs::remove(difference);
 
   std::vector<std::string> words{"render"};

@@ -10,6 +10,7 @@
 #include "omma/camera/deformation/warp.h"
 #include "omma/image/pfm.h"
 #include "omma/image/write.h"
+#include "tests/places.h"
 #include "tests/unit/camera_deformation.h"
 
 namespace omma {
@@ -212,7 +213,7 @@ TEST_F(Deformation, MeshesThatAreNoneAreRefused) {
 }
 
 TEST_F(Deformation, ReadsMeshesOfDomes) {
-  const std::filesystem::path folder = std::filesystem::path(OMMA_SHARED_DATA) / "sgct";
+  const std::filesystem::path folder = std::filesystem::path(places::shared_data) / "sgct";
   if (!std::filesystem::exists(folder / "standard_16x9.data")) GTEST_SKIP() << "no " << folder;
   const ImageSize screen{320, 180};
   const auto seen = [&](const char* name) {

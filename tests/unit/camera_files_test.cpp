@@ -13,6 +13,7 @@
 #include "omma/camera/field_of_view.h"
 #include "omma/camera/files/camera_file.h"
 #include "omma/camera/files/format.h"
+#include "tests/places.h"
 #include "tests/unit/camera_files_expect.h"
 
 namespace omma {
@@ -249,7 +250,7 @@ TEST_F(CameraFileFolder, MakeCameraTakesAFileAndOneOfItsCameras) {
 }
 
 TEST(CameraFiles, RealFilesAreRead) {
-  const std::filesystem::path folder = std::filesystem::path(OMMA_SHARED_DATA) / "calib";
+  const std::filesystem::path folder = std::filesystem::path(places::shared_data) / "calib";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
   int files = 0, cameras = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -325,7 +326,7 @@ TEST(CameraFiles, BrokenFilesGiveACameraOrAnErrorThatNamesThem) {
 }
 
 TEST(CameraFiles, TheDocumentationHoldsTheTable) {
-  EXPECT_NE(read_file(std::filesystem::path(OMMA_SOURCE_DIR) / "docs/camera-files.md").find(camera_format_table()),
+  EXPECT_NE(read_file(std::filesystem::path(places::source) / "docs/camera-files.md").find(camera_format_table()),
             std::string::npos)
       << "docs/camera-files.md should hold:\n"
       << camera_format_table();

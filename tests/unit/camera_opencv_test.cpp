@@ -12,6 +12,7 @@
 
 #include "omma/base/file.h"
 #include "omma/camera/camera.h"
+#include "tests/places.h"
 
 namespace omma {
 namespace {
@@ -109,7 +110,7 @@ std::vector<double> numbers_after(const std::string& text, const std::string& ke
 }
 
 TEST(OpencvFisheye, AgreesWithOpenCVForRealCalibrations) {
-  const std::filesystem::path folder = std::filesystem::path(OMMA_SHARED_DATA) / "calib";
+  const std::filesystem::path folder = std::filesystem::path(places::shared_data) / "calib";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
   std::vector<Calibration> real;
 

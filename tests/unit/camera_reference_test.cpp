@@ -13,6 +13,7 @@
 
 #include "omma/base/file.h"
 #include "omma/camera/camera.h"
+#include "tests/places.h"
 
 namespace omma {
 namespace {
@@ -142,7 +143,7 @@ class RealCalibrations : public testing::Test {
   }
 
  private:
-  const std::filesystem::path folder_ = std::filesystem::path(OMMA_SHARED_DATA) / "calib";
+  const std::filesystem::path folder_ = std::filesystem::path(places::shared_data) / "calib";
 };
 
 // How far apart two calibrations of one camera see a pixel's ray, in pixels of the second: mean over the pixels that

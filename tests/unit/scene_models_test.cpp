@@ -7,6 +7,7 @@
 
 #include "omma/base/error.h"
 #include "omma/scene/scene.h"
+#include "tests/places.h"
 #include "tests/unit/scene_invariants.h"
 
 namespace omma {
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 std::vector<fs::path> test_models() {
   std::vector<fs::path> models;
   std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(OMMA_TEST_MODELS, ignored)) {
+  for (const auto& entry : fs::recursive_directory_iterator(places::test_models, ignored)) {
     std::string extension = entry.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return std::tolower(c); });
@@ -31,7 +32,7 @@ std::vector<fs::path> test_models() {
 
 TEST(TestModels, AreSoundScenesAtAnyTimeOrRefused) {
   const std::vector<fs::path> models = test_models();
-  if (models.empty()) GTEST_SKIP() << "no models in " << OMMA_TEST_MODELS << "; install assimp-testmodels";
+  if (models.empty()) GTEST_SKIP() << "no models in " << places::test_models << "; install assimp-testmodels";
   size_t loaded = 0;
   for (const fs::path& path : models) {
     SCOPED_TRACE(path.string());
@@ -51,13 +52,13 @@ TEST(TestModels, AreSoundScenesAtAnyTimeOrRefused) {
   EXPECT_GE(loaded, models.size() * 7 / 10);
 }
 
-Scene test_model(const char* name) { return load_scene_file(fs::path(OMMA_TEST_MODELS) / name); }
+Scene test_model(const char* name) { return load_scene_file(fs::path(places::test_models) / name); }
 
 #define OMMA_REQUIRE(folder, name) \
   if (!fs::exists(fs::path(folder) / (name))) GTEST_SKIP() << (folder) << "/" << (name) << " is absent"
 
 TEST(TestModels, MorphedCubeMovesWithTime) {
-  OMMA_REQUIRE(OMMA_TEST_MODELS, "glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf");
+  OMMA_REQUIRE(places::test_models, "glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf");
   Scene scene = test_model("glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf");
   ASSERT_EQ(scene.meshes[0].morph_targets.size(), 2u);
   ASSERT_EQ(scene.animations.size(), 1u);
@@ -70,7 +71,7 @@ TEST(TestModels, MorphedCubeMovesWithTime) {
 }
 
 TEST(TestModels, SkinnedStripBends) {
-  OMMA_REQUIRE(OMMA_TEST_MODELS, "glTF2/simple_skin/simple_skin.gltf");
+  OMMA_REQUIRE(places::test_models, "glTF2/simple_skin/simple_skin.gltf");
   Scene scene = test_model("glTF2/simple_skin/simple_skin.gltf");
   ASSERT_TRUE(scene.meshes[0].skin);
   ASSERT_FALSE(scene.animations.empty());
@@ -80,7 +81,7 @@ TEST(TestModels, SkinnedStripBends) {
 }
 
 TEST(TestModels, UnitsBecomeMetres) {
-  OMMA_REQUIRE(OMMA_TEST_MODELS, "FBX/phong_cube.fbx");
+  OMMA_REQUIRE(places::test_models, "FBX/phong_cube.fbx");
   // A cube of one unit in a file that leaves the unit at FBX's centimetre.
   EXPECT_NEAR(test_model("FBX/phong_cube.fbx").bounds().extent().x, 0.01, 1e-6);
   // A duck 165 units long in a file that says <unit meter="0.01"/>.
@@ -88,7 +89,7 @@ TEST(TestModels, UnitsBecomeMetres) {
 }
 
 TEST(TestModels, ColladaCamerasAndLightsComeAlong) {
-  OMMA_REQUIRE(OMMA_TEST_MODELS, "Collada/lights.dae");
+  OMMA_REQUIRE(places::test_models, "Collada/lights.dae");
   const Scene scene = test_model("Collada/lights.dae");
   EXPECT_FALSE(scene.lights.empty());
   EXPECT_FALSE(test_model("Collada/cameras.dae").cameras.empty());
@@ -103,7 +104,7 @@ struct RealScene {
 };
 
 TEST(RealScenes, HaveTheTrianglesTexturesAndBoundsOfTheirReadme) {
-  OMMA_REQUIRE(OMMA_SHARED_DATA, "bunny.ply");
+  OMMA_REQUIRE(places::shared_data, "bunny.ply");
   const RealScene scenes[] = {
       {"sponza/sponza.gltf", 262267, 24, 25, {-15.365, -1.012, -9.463}, {14.395, 11.434, 8.843}},
       {"city/city.glb", 195756, 1, 1, {-13, 0, -13}, {12, 6.81, 12}},
@@ -118,7 +119,7 @@ TEST(RealScenes, HaveTheTrianglesTexturesAndBoundsOfTheirReadme) {
   for (const RealScene& real : scenes) {
     SCOPED_TRACE(real.path);
     ::testing::internal::CaptureStderr();
-    const Scene scene = load_scene_file(fs::path(OMMA_SHARED_DATA) / real.path);
+    const Scene scene = load_scene_file(fs::path(places::shared_data) / real.path);
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
     expect_sound(scene);
     EXPECT_EQ(scene.triangle_count(), real.triangles);
@@ -132,16 +133,16 @@ TEST(RealScenes, HaveTheTrianglesTexturesAndBoundsOfTheirReadme) {
 }
 
 TEST(RealScenes, SponzaMasksItsPlants) {
-  OMMA_REQUIRE(OMMA_SHARED_DATA, "sponza/sponza.gltf");
-  const Scene scene = load_scene_file(fs::path(OMMA_SHARED_DATA) / "sponza/sponza.gltf");
+  OMMA_REQUIRE(places::shared_data, "sponza/sponza.gltf");
+  const Scene scene = load_scene_file(fs::path(places::shared_data) / "sponza/sponza.gltf");
   EXPECT_EQ(std::count_if(scene.materials.begin(), scene.materials.end(),
                           [](const Material& m) { return m.alpha == Material::Alpha::mask; }),
             3);
 }
 
 TEST(RealScenes, FoxRunsAndComesBack) {
-  OMMA_REQUIRE(OMMA_SHARED_DATA, "fox.glb");
-  Scene fox = load_scene_file(fs::path(OMMA_SHARED_DATA) / "fox.glb");
+  OMMA_REQUIRE(places::shared_data, "fox.glb");
+  Scene fox = load_scene_file(fs::path(places::shared_data) / "fox.glb");
   EXPECT_EQ(fox.triangle_count(), 576u);
   ASSERT_EQ(fox.animations.size(), 3u);
   ASSERT_TRUE(fox.meshes[0].skin);
@@ -163,8 +164,8 @@ TEST(RealScenes, FoxRunsAndComesBack) {
 }
 
 TEST(RealScenes, MilkTruckWheelsTurn) {
-  OMMA_REQUIRE(OMMA_SHARED_DATA, "milk_truck.glb");
-  Scene truck = load_scene_file(fs::path(OMMA_SHARED_DATA) / "milk_truck.glb");
+  OMMA_REQUIRE(places::shared_data, "milk_truck.glb");
+  Scene truck = load_scene_file(fs::path(places::shared_data) / "milk_truck.glb");
   expect_sound(truck);
   size_t stored = 0;
   for (const Mesh& mesh : truck.meshes) stored += mesh.triangles.size();
