@@ -27,7 +27,7 @@ View view_of(const Pass& pass, Output output) {
 }  // namespace
 
 DirectDrawing::DirectDrawing(const Scene& scene)
-    : scene_(scene, context_), tools_{context_, scene_}, shadows_(tools_, scene_) {
+    : scene_(scene, context_), tools_{context_, scene_, programs_}, shadows_(tools_, scene_) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // as Renderer sets it
   glEnable(GL_DEPTH_CLAMP);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

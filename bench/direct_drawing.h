@@ -49,6 +49,7 @@ class DirectDrawing {
 
   gl::Context context_;
   GpuScene scene_;
+  ProgramCache programs_;
   DrawTools tools_;
   ShadowMaps shadows_;
   std::map<std::string, std::unique_ptr<Technique>> techniques_;

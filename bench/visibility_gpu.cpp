@@ -40,7 +40,8 @@ nlohmann::json measure(const gl::Context& context, const Case& tested, const Opt
   const Camera camera = make_camera(tested.camera, tested.size);
   const RayTree tree(rays_of(camera));
   const GpuScene gpu_scene(scene, context);
-  DrawTools tools{context, gpu_scene};
+  ProgramCache programs;
+  DrawTools tools{context, gpu_scene, programs};
   const GpuRays rays(tree, context.limits());
   GpuFinder gpu(tools);
   Finder cpu(scene);

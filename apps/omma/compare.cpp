@@ -14,16 +14,23 @@
 #include "omma/base/error.h"
 #include "omma/base/names.h"
 #include "omma/image/read.h"
+#include "omma/image/shift.h"
 #include "omma/image/write.h"
 
 namespace omma::tool {
 namespace {
 
+/// Two images and how they differ. The shift takes longer than all else: it is measured where it is asked for.
+struct Comparison {
+  Difference difference;
+  std::optional<glm::dvec2> shift;
+};
+
 struct Metric {
   const char* name;
   const char* json_name;
   const char* unit;
-  std::optional<double> (*value)(const Difference&);
+  std::optional<double> (*value)(const Comparison&);
   const char* limit_option;
   bool limit_is_minimum;
   const char* limit_description;
@@ -31,18 +38,23 @@ struct Metric {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+constexpr std::string_view shift_name = "shift";
+
 constexpr Metric metrics[] = {
-    {"psnr", "psnr_db", " dB", [](const Difference& d) { return d.psnr; }, "--min-psnr", true,
+    {"psnr", "psnr_db", " dB", [](const Comparison& c) { return c.difference.psnr; }, "--min-psnr", true,
      "Fail below this peak signal-to-noise ratio in dB"},
-    {"ssim", "ssim", "", [](const Difference& d) { return d.ssim; }, "--min-ssim", true,
+    {"ssim", "ssim", "", [](const Comparison& c) { return c.difference.ssim; }, "--min-ssim", true,
      "Fail below this structural similarity"},
-    {"max", "max", "", [](const Difference& d) { return d.max; }, "--max-max", false,
+    {"max", "max", "", [](const Comparison& c) { return c.difference.max; }, "--max-max", false,
      "Fail when a component of a pixel differs by more"},
-    {"mean", "mean", "", [](const Difference& d) { return d.mean; }, "--max-mean", false,
+    {"mean", "mean", "", [](const Comparison& c) { return c.difference.mean; }, "--max-mean", false,
      "Fail when the components differ by more on average"},
-    {"id", "id_share", " of the pixels", [](const Difference& d) { return std::optional(d.mismatch_share); },
+    {"id", "id_share", " of the pixels", [](const Comparison& c) { return std::optional(c.difference.mismatch_share); },
      "--max-id-share", false,
      "Fail when a larger share of pixels (0 to 1) has different numbers, or a value in one image only"},
+    {"shift", "shift_px", " px",
+     [](const Comparison& c) { return c.shift ? std::optional(glm::length(*c.shift)) : std::nullopt; }, "--max-shift",
+     false, "Fail when B is moved against A by more pixels"},
 };
 constexpr size_t metric_count = std::size(metrics);
 
@@ -54,24 +66,35 @@ struct Options {
   bool json = false, raw = false;
 };
 
-std::vector<const Metric*> metrics_of(const Options& options, const Difference& difference) {
+std::vector<const Metric*> metrics_of(const Options& options, const Comparison& comparison) {
   std::vector<const Metric*> chosen;
   if (!options.metric) {
     for (const Metric& metric : metrics) {
-      if (metric.value(difference)) chosen.push_back(&metric);
+      if (metric.value(comparison)) chosen.push_back(&metric);
     }
     return chosen;
   }
   for (const std::string& name : split(*options.metric, ',')) {
     const auto found =
         std::find_if(std::begin(metrics), std::end(metrics), [&](const Metric& metric) { return metric.name == name; });
-    if (!found->value(difference)) {
-      throw CommandError("--metric {}: these images have none; numbers have id, ssim needs {} pixels or more", name,
-                         "11 x 11");
+    if (!found->value(comparison)) {
+      throw CommandError(
+          "--metric {}: these images have none; numbers have id, ssim needs 11 x 11 pixels or more, shift something to "
+          "be seen that has edges in two directions",
+          name);
     }
     chosen.push_back(found);
   }
   return chosen;
+}
+
+bool wants_shift(const Options& options) {
+  const auto limit = std::find_if(std::begin(metrics), std::end(metrics),
+                                  [](const Metric& metric) { return metric.name == shift_name; });
+  if (options.limits[size_t(limit - std::begin(metrics))]) return true;
+  if (!options.metric) return false;
+  const std::vector<std::string> names = split(*options.metric, ',');
+  return std::find(names.begin(), names.end(), shift_name) != names.end();
 }
 
 void check_metric_names(const Options& options) {
@@ -102,16 +125,20 @@ Scale scale_of(const Options& options) {
   return !options.raw && (is_display(options.a) || is_display(options.b)) ? Scale::display : Scale::raw;
 }
 
-void print_text(const std::vector<const Metric*>& chosen, const Difference& difference) {
+void print_text(const std::vector<const Metric*>& chosen, const Comparison& comparison) {
   for (const Metric* metric : chosen) {
-    fmt::print("{:<6}{:.6g}{}\n", metric->name, *metric->value(difference), metric->unit);
+    fmt::print("{:<6}{:.6g}{}", metric->name, *metric->value(comparison), metric->unit);
+    if (metric->name == shift_name) {
+      fmt::print(": B lies {:.4f} px to the right and {:.4f} px below", comparison.shift->x, comparison.shift->y);
+    }
+    fmt::print("\n");
   }
 }
 
-void print_json(const std::vector<const Metric*>& chosen, const Difference& difference, Scale scale, bool passed) {
+void print_json(const std::vector<const Metric*>& chosen, const Comparison& comparison, Scale scale, bool passed) {
   nlohmann::ordered_json json{{"scale", scale == Scale::display ? "display" : "raw"}};
   for (const Metric* metric : chosen) {
-    const double value = *metric->value(difference);
+    const double value = *metric->value(comparison);
     // JSON has no infinity.
     if (std::isfinite(value)) {
       json[metric->json_name] = value;
@@ -119,18 +146,19 @@ void print_json(const std::vector<const Metric*>& chosen, const Difference& diff
       json[metric->json_name] = "inf";
     }
   }
-  json["mismatches"] = difference.mismatches;
+  if (comparison.shift) json["shift_xy_px"] = {comparison.shift->x, comparison.shift->y};
+  json["mismatches"] = comparison.difference.mismatches;
   json["passed"] = passed;
   fmt::print("{}\n", json.dump(2));
 }
 
 /// One line for each limit that was passed, on standard error.
-bool check_limits(const std::array<std::optional<double>, metric_count>& limits, const Difference& difference) {
+bool check_limits(const std::array<std::optional<double>, metric_count>& limits, const Comparison& comparison) {
   bool passed = true;
   for (size_t i = 0; i < metric_count; ++i) {
     if (!limits[i]) continue;
     const Metric& metric = metrics[i];
-    const std::optional<double> value = metric.value(difference);
+    const std::optional<double> value = metric.value(comparison);
     if (!value) throw CommandError("{}: these images have no {}", metric.limit_option, metric.name);
     if (metric.limit_is_minimum ? *value >= *limits[i] : *value <= *limits[i]) continue;
     fmt::print(stderr, "{} is {:.6g}{}, {} {:.6g} was asked for\n", metric.name, *value, metric.unit,
@@ -146,10 +174,11 @@ void run(const Options& options) {
   if (options.diff) check_image_output(*options.diff, Channel::color);
   const Scale scale = scale_of(options);
   const Image a = read_image(options.a), b = read_image(options.b);
-  const Difference difference = compare_images(a, b, scale);
-  const std::vector<const Metric*> chosen = metrics_of(options, difference);
-  const bool passed = check_limits(limits, difference);
-  options.json ? print_json(chosen, difference, scale, passed) : print_text(chosen, difference);
+  Comparison comparison{.difference = compare_images(a, b, scale), .shift = {}};
+  if (wants_shift(options)) comparison.shift = image_shift(a, b, scale);
+  const std::vector<const Metric*> chosen = metrics_of(options, comparison);
+  const bool passed = check_limits(limits, comparison);
+  options.json ? print_json(chosen, comparison, scale, passed) : print_text(chosen, comparison);
   if (options.diff) write_image(*options.diff, difference_image(a, b, scale), Channel::color);
   if (!passed) throw ExitCode{1};
 }
@@ -161,7 +190,9 @@ void add_compare(CLI::App& tool) {
   auto options = std::make_shared<Options>();
   command->add_option("a", options->a, "The first image, the reference")->type_name("A")->required();
   command->add_option("b", options->b, "The second image")->type_name("B")->required();
-  command->add_option("--metric", options->metric, "Some of psnr,ssim,max,mean,id; default: all that apply")
+  command
+      ->add_option("--metric", options->metric,
+                   "Some of psnr,ssim,max,mean,id,shift; default: all that apply but shift")
       ->type_name("NAMES");
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--raw", options->raw, "Compare 8-bit colour in linear light, not as a screen shows it");
@@ -175,8 +206,10 @@ void add_compare(CLI::App& tool) {
       "Colour from .png and .jpg is compared as a screen shows it: sRGB encoded, 0 to 1, so that one step of 8 bits\n"
       "is 0.0039. Everything else is compared in its own unit; the peak of psnr and ssim is then A's largest value.\n"
       "A pixel with a finite value in one image only counts for id, and makes max infinite.\n"
+      "shift is how far A has to be moved to look most like B, in fractions of a pixel.\n"
       "Examples:\n"
       "  omma compare a.png b.png\n"
+      "  omma compare a.png b.png --metric shift --max-shift 0.01\n"
       "  omma compare a.png b.png --max-max 0.1 --max-mean 0.002 --diff difference.png\n"
       "  omma compare a.npy b.npy --metric id --max-id-share 0.001");
   command->callback([options] { run(*options); });

@@ -3,8 +3,7 @@
 #include "common/camera.glsl"
 
 #ifdef SAMPLES
-layout(binding = 17) uniform usamplerBuffer coverage;  // x: how many samples see it; y: at which of them it is shaded
-uniform vec2 sample_shifts[16];                        // pixels, from pixels' centres
+layout(binding = 17) uniform isamplerBuffer coverage;  // x: how many samples see it; yz: where it is shaded, 1/256 px
 uniform float sample_share;                            // of a pixel
 #endif
 #ifdef ON_SHEET
@@ -28,7 +27,7 @@ vec2 sight_pixel() {
   vec2 pixel = gl_FragCoord.xy + pixel_offset;
 #endif
 #ifdef SAMPLES
-  pixel += sample_shifts[texelFetch(coverage, sight_number()).y];
+  pixel += vec2(texelFetch(coverage, sight_number()).yz) / 256.0;
 #endif
   return pixel;
 }

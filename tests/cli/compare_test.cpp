@@ -62,6 +62,28 @@ TEST_F(CompareCommand, LimitsDecideTheExitCode) {
   EXPECT_EQ(run({"compare", "a_id.npy", "b_id.npy", "--max-id-share", "0.049"}).exit_code, 1);
 }
 
+TEST_F(CompareCommand, ShiftIsMeasuredWhereItIsAskedFor) {
+  FloatImage a({64, 64}, 3), b = a;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const auto wave = [](double u, double v) { return 0.5 + 0.2 * std::sin(0.4 * u) + 0.2 * std::cos(0.3 * v); };
+      for (int c = 0; c < 3; ++c) a.at(x, y)[c] = float(wave(x, y)), b.at(x, y)[c] = float(wave(x - 0.25, y + 0.5));
+    }
+  }
+  write_image(file("here.npy"), a, Channel::color);
+  write_image(file("there.npy"), b, Channel::color);
+  const auto json = nlohmann::json::parse(run({"compare", "here.npy", "there.npy", "--metric", "shift", "--json"}).out);
+  EXPECT_NEAR(json["shift_xy_px"][0].get<double>(), 0.25, 0.005);
+  EXPECT_NEAR(json["shift_xy_px"][1].get<double>(), -0.5, 0.005);
+  EXPECT_NEAR(json["shift_px"].get<double>(), std::hypot(0.25, 0.5), 0.005);
+  const std::string text = run({"compare", "here.npy", "there.npy", "--metric", "shift"}).out;
+  EXPECT_NE(text.find("px to the right"), std::string::npos) << text;
+  EXPECT_EQ(run({"compare", "here.npy", "there.npy"}).out.find("shift"), std::string::npos);
+  EXPECT_EQ(run({"compare", "here.npy", "there.npy", "--max-shift", "0.6"}).exit_code, 0);
+  EXPECT_EQ(run({"compare", "here.npy", "there.npy", "--max-shift", "0.5"}).exit_code, 1);
+  expect_refusal({"compare", "a_id.npy", "b_id.npy", "--metric", "shift"}, 2, {"shift"});
+}
+
 TEST_F(CompareCommand, DifferenceIsWrittenEvenBeyondALimit) {
   EXPECT_EQ(run({"compare", "a.npy", "b.npy", "--max-max", "0", "--diff", "d.npy"}).exit_code, 1);
   const FloatImage difference = std::get<FloatImage>(read_image(file("d.npy")));

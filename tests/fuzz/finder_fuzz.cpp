@@ -168,7 +168,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   use_simd_target("");
   if (context == nullptr) return 0;
   const GpuScene gpu_scene(scene, *context);
-  DrawTools tools{*context, gpu_scene};
+  ProgramCache programs;
+  DrawTools tools{*context, gpu_scene, programs};
   GpuFinder gpu(tools);
   gpu.set_view(glm::dmat4(1.0));
   check("gpu", gpu.nearest(GpuRays(tree, context->limits()), Solid::opaque).hits);

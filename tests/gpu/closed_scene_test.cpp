@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <random>
 
-#include "tests/full_proof.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/random_scenes.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {

@@ -12,10 +12,10 @@
 #include "omma/technique/visibility/gpu_finder.h"
 #include "omma/visibility/find_blocks.h"
 #include "omma/visibility/finder.h"
-#include "tests/full_proof.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/oracle.h"
 #include "tests/gpu/random_scenes.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {
@@ -43,7 +43,8 @@ TEST_P(FindersAgreeTest, InEveryCamera) {
   const Scene scene = load_scene(small_form(GetParam()));
   const gl::Context context;
   const GpuScene gpu_scene(scene, context);
-  DrawTools tools{context, gpu_scene};
+  ProgramCache programs;
+  DrawTools tools{context, gpu_scene, programs};
   GpuFinder gpu(tools);
   Finder cpu(scene);
   EmbreeScene embree(scene);

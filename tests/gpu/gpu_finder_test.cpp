@@ -12,11 +12,11 @@
 #include "omma/camera/ray_bundle.h"
 #include "omma/technique/visibility/gpu_finder.h"
 #include "omma/visibility/finder.h"
-#include "tests/full_proof.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
 #include "tests/gpu/random_scenes.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {
@@ -37,7 +37,7 @@ class GpuFinderTest : public ::testing::Test {
 /// Both finders over one scene, seen from one place.
 struct Finders {
   Finders(const Scene& scene, const gl::Context& gl, uint32_t most_entries = 1 << 20)
-      : gpu_scene(scene, gl), tools{gl, gpu_scene}, gpu(tools, most_entries), cpu(scene), context(gl) {
+      : gpu_scene(scene, gl), tools{gl, gpu_scene, programs}, gpu(tools, most_entries), cpu(scene), context(gl) {
     set_view(glm::dmat4(1.0));
   }
   void set_view(const glm::dmat4& pose) {
@@ -66,6 +66,7 @@ struct Finders {
   }
 
   GpuScene gpu_scene;
+  ProgramCache programs;
   DrawTools tools;
   GpuFinder gpu;
   Finder cpu;

@@ -95,6 +95,28 @@ std::string test_name(std::string text) {
   return text;
 }
 
+namespace {
+
+std::unique_ptr<Renderer> shared_renderer;
+
+/// GL goes before the process does.
+class RendererEnvironment : public ::testing::Environment {
+ public:
+  void TearDown() override { shared_renderer.reset(); }
+};
+
+[[maybe_unused]] const auto* const environment = ::testing::AddGlobalTestEnvironment(new RendererEnvironment);
+
+}  // namespace
+
+Renderer& GpuTest::renderer() {
+  if (shared_renderer == nullptr) {
+    shared_renderer = std::make_unique<Renderer>();
+    shared_renderer->open_gl();
+  }
+  return *shared_renderer;
+}
+
 IntImage GpuTest::draw_ids(const Camera& camera, const glm::dmat4& pose, const std::string& technique) {
   return std::get<IntImage>(draw(camera, pose, {Channel::id}, {.technique = technique}).at(Channel::id));
 }

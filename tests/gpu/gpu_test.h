@@ -1,4 +1,4 @@
-// What all tests that draw share: one renderer for a suite, every camera, every technique.
+// What all tests that draw share: one renderer for the process, every camera, every technique.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -50,20 +50,13 @@ std::string test_name(std::string text);
 
 class GpuTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    renderer_ = std::make_unique<Renderer>();
-    renderer_->open_gl();
-  }
-  static void TearDownTestSuite() { renderer_.reset(); }
-
-  static Renderer& renderer() { return *renderer_; }
+  /// Opened by the first test that asks. Its programs serve all tests after it: compiling them takes longer than
+  /// drawing.
+  static Renderer& renderer();
   static IntImage draw_ids(const Camera& camera, const glm::dmat4& pose, const std::string& technique);
   static FloatImage draw_color(const Camera& camera, const glm::dmat4& pose, const RenderOptions& options);
   static std::map<Channel, Image> draw(const Camera& camera, const glm::dmat4& pose,
                                        std::initializer_list<Channel> channels, const RenderOptions& options);
-
- private:
-  static inline std::unique_ptr<Renderer> renderer_;
 };
 
 /// Share of pixels whose numbers differ.

@@ -9,10 +9,10 @@
 
 #include "omma/camera/pieces/approximate.h"
 #include "omma/image/write.h"
-#include "tests/full_proof.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {

@@ -234,7 +234,8 @@ TEST(SamplesAtOnce, AreFewerInLargeTiles) {
   const gl::Context context;
   const Scene scene = SceneMaker().finish();
   const GpuScene gpu_scene(scene, context);
-  DrawTools tools{context, gpu_scene};
+  ProgramCache programs;
+  DrawTools tools{context, gpu_scene, programs};
   const Resolver resolver(tools);
   EXPECT_EQ(resolver.samples_at_once({1, 1}), 16u);
   EXPECT_EQ(resolver.samples_at_once({1600, 1200}), 16u);

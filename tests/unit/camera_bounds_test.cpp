@@ -4,7 +4,7 @@
 #include <iostream>
 #include <map>
 
-#include "tests/full_proof.h"
+#include "tests/proof.h"
 #include "tests/unit/bounding_shape_cases.h"
 
 namespace omma {

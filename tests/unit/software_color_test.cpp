@@ -9,10 +9,9 @@
 #include <random>
 
 #include "omma/base/error.h"
-#include "omma/camera/pieces/piece_set.h"
+#include "omma/camera/sampling_pattern.h"
 #include "omma/image/srgb.h"
 #include "omma/math/pose.h"
-#include "omma/math/spread.h"
 #include "omma/software/mip_texture.h"
 #include "omma/software/software_renderer.h"
 #include "tests/gpu/hand_made.h"
@@ -88,8 +87,7 @@ TEST(SoftwareColorTest, SamplesAreTheAverageOfPicturesOfOneSample) {
         SoftwareOptions all = one;
         all.samples = samples;
         FloatImage average(camera.size(), 3);
-        for (int i = 0; i < samples; ++i) {
-          const glm::dvec2 shift = glm::round(spread_point(i) * double(piece_grid)) / double(piece_grid);
+        for (const glm::dvec2& shift : sampling_pattern(samples)) {
           const FloatImage part = draw(scene, shifted(camera, shift), one);
           for (size_t k = 0; k < average.values.size(); ++k) average.values[k] += part.values[k] / float(samples);
         }

@@ -8,7 +8,7 @@
 
 #include "omma/technique/nonlinear/image_squares.h"
 #include "omma/technique/nonlinear/lens_curvature.h"
-#include "tests/full_proof.h"
+#include "tests/proof.h"
 #include "tests/unit/camera_samples.h"
 
 namespace omma {

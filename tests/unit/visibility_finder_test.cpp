@@ -11,10 +11,10 @@
 #include "omma/camera/ray_bundle.h"
 #include "omma/visibility/find_blocks.h"
 #include "omma/visibility/finder.h"
-#include "tests/full_proof.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
 #include "tests/gpu/random_scenes.h"
+#include "tests/proof.h"
 #include "tests/unit/camera_samples.h"
 
 namespace omma {

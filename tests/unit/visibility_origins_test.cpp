@@ -10,10 +10,10 @@
 #include "omma/technique/raycast/embree_scene.h"
 #include "omma/visibility/find_blocks.h"
 #include "omma/visibility/finder.h"
-#include "tests/full_proof.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
 #include "tests/gpu/random_scenes.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {

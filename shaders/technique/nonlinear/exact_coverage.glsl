@@ -41,35 +41,45 @@ bool is_inside(PixelRay ray) {
   return true;
 }
 
-// The samples that see the triangle, as bits. Where the pixel's centre does not, the ray becomes the first one that
-// does: a surface extended beyond its edges may be anywhere.
+vec2 sample_place(vec2 pixel, int s) { return pixel - 0.5 + vec2(sample_places[s]) / 256.0; }
+
+// Where the centre is beyond the edge of what the camera sees, a sample's that is not.
+PixelRay ray_of_pixel(vec2 pixel) {
+  PixelRay ray = camera_ray(pixel);
+  for (int s = ray.valid ? -1 : SAMPLES - 1; s >= 0; --s) {
+    PixelRay other = camera_ray(sample_place(pixel, s));
+    if (other.valid) ray = other;
+  }
+  return ray;
+}
+
+// The samples that see the triangle, as bits. Where not all do, the ray becomes the middle of those that do, which meets
+// the triangle as they do: a surface extended beyond its edges may be anywhere.
 int samples_that_meet(vec2 pixel, inout PixelRay ray) {
   int all = (1 << SAMPLES) - 1;
   bool inside = is_inside(ray);
-  bool centre = inside || meets(ray.direction, ray);
   int samples = inside ? all : 0;
-  vec3 first = ray.direction;
+  vec3 sum = vec3(0.0);
   // A loop that is not entered is the one way to leave work out where a driver runs both sides of every branch.
   for (int s = inside ? -1 : SAMPLES - 1; s >= 0; --s) {
     vec3 direction;
-    // A sample beyond the edge of what the camera sees goes with the pixel's centre.
-    if (!camera_unproject(pixel - 0.5 + vec2(sample_places[s]) / 256.0, direction)) direction = ray.direction;
-    if (meets(direction, ray)) {
+    if (camera_unproject(sample_place(pixel, s), direction) && meets(direction, ray)) {
       samples |= 1 << s;
-      first = direction;
+      sum += direction;
     }
   }
-  if (!centre) ray.direction = first;
+  if (samples != 0 && !inside) ray.direction = normalize(sum);
   return samples;
 }
 #else
+PixelRay ray_of_pixel(vec2 pixel) { return camera_ray(pixel); }
 int samples_that_meet(vec2 pixel, PixelRay ray) { return meets(ray.direction, ray) ? 1 : 0; }
 #endif
 
 // False when the pixel does not see the triangle. Else its samples are those that do, and the ray meets it.
 bool find_coverage(out PixelRay ray) {
   vec2 pixel = gl_FragCoord.xy + pixel_offset;
-  ray = camera_ray(pixel);
+  ray = ray_of_pixel(pixel);
   int samples = ray.valid ? samples_that_meet(pixel, ray) : 0;
 #if SAMPLES > 1
   gl_SampleMask[0] = samples;

@@ -13,29 +13,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void require_comparable(const Image& a, const Image& b) {
-  const ImageSize size_a = image_size(a), size_b = image_size(b);
-  if (size_a != size_b) {
-    throw InputError("the images differ in size: {} x {} and {} x {}", size_a.width, size_a.height, size_b.width,
-                     size_b.height);
-  }
-  if (a.index() != b.index()) {
-    throw InputError("one image holds whole numbers, the other floats");
-  }
-  if (image_components(a) != image_components(b)) {
-    throw InputError("the images differ in components: {} and {}", image_components(a), image_components(b));
-  }
-}
-
-FloatImage scaled(FloatImage image, Scale scale) {
-  if (scale == Scale::display) {
-    for (float& value : image.values) {
-      if (std::isfinite(value)) value = srgb_from_linear(value);
-    }
-  }
-  return image;
-}
-
 double peak_of(const FloatImage& image, Scale scale) {
   if (scale == Scale::display) return 1.0;
   double peak = 0.0;
@@ -119,6 +96,29 @@ Difference compare(const IntImage& a, const IntImage& b) {
 }
 
 }  // namespace
+
+void require_comparable(const Image& a, const Image& b) {
+  const ImageSize size_a = image_size(a), size_b = image_size(b);
+  if (size_a != size_b) {
+    throw InputError("the images differ in size: {} x {} and {} x {}", size_a.width, size_a.height, size_b.width,
+                     size_b.height);
+  }
+  if (a.index() != b.index()) {
+    throw InputError("one image holds whole numbers, the other floats");
+  }
+  if (image_components(a) != image_components(b)) {
+    throw InputError("the images differ in components: {} and {}", image_components(a), image_components(b));
+  }
+}
+
+FloatImage scaled(FloatImage image, Scale scale) {
+  if (scale == Scale::display) {
+    for (float& value : image.values) {
+      if (std::isfinite(value)) value = srgb_from_linear(value);
+    }
+  }
+  return image;
+}
 
 Difference compare_images(const Image& a, const Image& b, Scale scale) {
   require_comparable(a, b);

@@ -32,10 +32,16 @@ struct Difference {
 };
 
 /// Throws InputError when the images differ in size, components or kind.
+void require_comparable(const Image& a, const Image& b);
+
+/// The numbers that are compared: finite ones sRGB encoded for Scale::display.
+FloatImage scaled(FloatImage image, Scale scale);
+
+/// Throws as require_comparable does.
 Difference compare_images(const Image& a, const Image& b, Scale scale);
 
 /// RGB, linear: |a - b| over its largest value, so that the largest difference is white and equal images are black;
-/// one-sided pixels magenta, differing numbers white. Throws as compare_images does.
+/// one-sided pixels magenta, differing numbers white. Throws as require_comparable does.
 FloatImage difference_image(const Image& a, const Image& b, Scale scale);
 
 }  // namespace omma

@@ -8,8 +8,7 @@
 #include <cmath>
 
 #include "omma/base/error.h"
-#include "omma/camera/pieces/piece_set.h"
-#include "omma/math/spread.h"
+#include "omma/camera/sampling_pattern.h"
 #include "omma/math/tiles.h"
 #include "omma/software/channel_writer.h"
 #include "omma/software/shade_fragments.h"
@@ -46,9 +45,6 @@ Image make_image(const ChannelInfo& info, ImageSize size) {
   if (info.integer) return IntImage(size, info.components, int32_t(info.nothing));
   return FloatImage(size, info.components, info.nothing);
 }
-
-/// On the grid of pieces, where it is decided in whole numbers whose a sample is.
-glm::dvec2 shift_of_sample(int i) { return glm::round(spread_point(i) * double(piece_grid)) / double(piece_grid); }
 
 std::vector<SeenInstance> seen_instances(const Scene& scene, const glm::dmat4& cameraFromWorld) {
   std::vector<SeenInstance> instances;
@@ -98,15 +94,15 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   watch.add_to("place");
 
   tbb::enumerable_thread_specific<Fragments> scratch([&] { return Fragments(instances); });
-  const auto samples = size_t(options.samples);
+  const std::vector<glm::dvec2> pattern = sampling_pattern(options.samples);
+  const size_t samples = pattern.size();
   const std::vector<PixelRect> tiles =
       tiles_of(camera.size(), options.tile > 0 ? options.tile : RayTrees::good_tile(std::min(samples, most_samples)));
   for (size_t first = 0; first < samples; first += most_samples, ++stats.passes) {
     const size_t count = std::min(most_samples, samples - first);
     const float share = float(count) / float(samples);
-    std::vector<glm::dvec2> shifts;
-    for (size_t i = first; i < first + count; ++i)
-      shifts.push_back(samples > 1 ? shift_of_sample(int(i)) : glm::dvec2(0));
+    const std::vector<glm::dvec2> shifts(pattern.begin() + ptrdiff_t(first),
+                                         pattern.begin() + ptrdiff_t(first + count));
     for (const PixelRect& tile : tiles) {
       const RayTree& rays = ray_trees_.of_tile(camera, tile, shifts);
       watch.add_to("ray tree");

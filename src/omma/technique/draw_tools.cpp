@@ -1,4 +1,5 @@
 #include "omma/technique/effect_program.h"
+#include "omma/technique/sample_places.h"
 #include "omma/technique/technique.h"
 
 namespace omma {
@@ -35,9 +36,19 @@ void DrawTools::draw_background(const View& view) {
   if (view.camera.pieces() != nullptr) return draw_background_in_pieces(view);
   gl::Defines defines = camera_defines(view.camera);
   if (!view.labels()) defines["OUTPUT_COLOR"] = "0";
+  std::vector<glm::ivec2> places;
+  if (view.samples > 1) {
+    places = sample_places(view.samples);
+    defines["SAMPLES"] = std::to_string(places.size());
+  }
   const gl::Program& program = programs.get(
       {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "common/background.frag"}}, defines);
   set_camera(program, view);
+  if (!places.empty()) {
+    const GLfloat nearest = 1.0f;
+    glClearBufferfv(GL_DEPTH, 0, &nearest);
+    program.set("sample_places", std::span<const glm::ivec2>(places));
+  }
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   // What a program leaves unwritten is undefined: for labels only the depth may change.

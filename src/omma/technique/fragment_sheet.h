@@ -37,7 +37,7 @@ class FragmentSheet {
   gl::Texture colors_;
   gl::Framebuffer framebuffer_;
   /// By position on the sheet.
-  gl::Texels places_{GL_R32UI}, coverage_{GL_RG8UI}, pixels_{GL_RG16UI};
+  gl::Texels places_{GL_R32UI}, coverage_{GL_RGBA8I}, pixels_{GL_RG16UI};
   /// Where each fragment lies, pixel by pixel; and each pixel's run of them: the first, and in the lowest bits how
   /// many.
   gl::Texels positions_{GL_RG16UI}, runs_{GL_R32UI};

@@ -1,19 +1,21 @@
 #include "omma/technique/gpu_renderer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "omma/base/error.h"
-#include "omma/math/spread.h"
+#include "omma/camera/pieces/piece_set.h"
+#include "omma/camera/sampling_pattern.h"
 #include "omma/math/tiles.h"
+#include "omma/technique/sample_places.h"
 
 namespace omma {
 
-/// The samples of a picture as passes: each with the driver's samples around one shift, or with a sample at each of
-/// several shifts.
+/// The samples of a picture as passes: one with the driver's own samples where it has just as many, otherwise some with
+/// a sample at each of several shifts.
 struct GpuRenderer::Passes {
-  Passes(int samples, int driver_samples, size_t shifts_at_once);
-  int driver_samples = 1;  ///< in each pass
+  Passes(int samples, int most_driver_samples, size_t shifts_at_once);
+  int driver_samples = 1;  ///< in a pass
   std::vector<glm::dvec2> shifts;
   size_t at_once = 1;  ///< of the shifts, but in the last pass
   size_t count() const { return (shifts.size() + at_once - 1) / at_once; }
@@ -45,16 +47,20 @@ void paste(const Image& tile, const PixelRect& place, Image& whole) {
 }  // namespace
 
 GpuRenderer::Passes::Passes(int wanted, int most_driver_samples, size_t shifts_at_once) {
-  // Drivers have powers of two.
-  while (driver_samples * 2 <= std::min(wanted, most_driver_samples)) driver_samples *= 2;
-  const int shift_count = (wanted + driver_samples - 1) / driver_samples;
-  // The driver's own sample positions are spread over the pixel; a pass shifts them within the gap between two.
-  const double gap = 1.0 / std::sqrt(double(driver_samples));
-  for (int i = 0; i < shift_count; ++i) {
-    // On the grid of pieces, where it is decided in whole numbers whose a sample is.
-    const glm::dvec2 shift = glm::round(gap * spread_point(i) * double(piece_grid)) / double(piece_grid);
-    shifts.push_back(shift_count == 1 ? glm::dvec2(0.0) : shift);
+  // Drivers have powers of two. To shift their pattern for more samples than they have would sample neighbouring
+  // pixels.
+  if (wanted > 1 && wanted <= most_driver_samples && std::has_single_bit(unsigned(wanted))) {
+    const std::vector<glm::ivec2> places = sample_places(wanted);
+    if (places.size() == size_t(wanted)) {
+      driver_samples = wanted;
+      // Not every driver's pattern has its middle in the pixel's.
+      glm::dvec2 middle(0.0);
+      for (const glm::ivec2& place : places) middle += glm::dvec2(place) / double(wanted);
+      shifts.push_back(glm::round(0.5 * double(piece_grid) - middle) / double(piece_grid));
+      return;
+    }
   }
+  shifts = sampling_pattern(wanted);
   at_once = std::min(shifts.size(), shifts_at_once);
 }
 
@@ -74,7 +80,7 @@ void GpuRenderer::load(const Scene& scene) {
   reflection_maps_.reset();
   tools_.reset();
   gpu_scene_ = std::make_unique<GpuScene>(scene, context_);
-  tools_ = std::unique_ptr<DrawTools>(new DrawTools{context_, *gpu_scene_});
+  tools_ = std::unique_ptr<DrawTools>(new DrawTools{context_, *gpu_scene_, programs_});
   shadow_maps_ = std::make_unique<ShadowMaps>(*tools_, *gpu_scene_);
   reflection_maps_ = std::make_unique<ReflectionMaps>(*tools_, *gpu_scene_);
 }

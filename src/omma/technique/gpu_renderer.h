@@ -46,6 +46,7 @@ class GpuRenderer {
   void draw_channels(Technique& technique, View view, std::map<Channel, Image>& pictures);
 
   gl::Context context_;
+  ProgramCache programs_;  ///< of all scenes: compiling takes longer than drawing
   std::unique_ptr<GpuScene> gpu_scene_;
   std::unique_ptr<DrawTools> tools_;
   std::map<std::string, std::unique_ptr<Technique>> techniques_;

@@ -142,11 +142,7 @@ void Resolver::draw_squares(const gl::Program& program, const View& view, const 
   set_camera(program, view);
   program.set("visible_width", canvas.size.width);
   program.set("target_size", glm::vec2(canvas.size.width, canvas.size.height));
-  if (!view.shifts.empty()) {
-    const std::vector<glm::vec2> shifts(view.shifts.begin(), view.shifts.end());
-    program.set("sample_shifts", std::span<const glm::vec2>(shifts));
-    program.set("sample_share", 1.0f / float(shifts.size()));
-  }
+  if (!view.shifts.empty()) program.set("sample_share", 1.0f / float(view.shifts.size()));
   program.set("side", float(VisibleSquares::side));
   const gl::Buffer buffer{std::span<const glm::uvec2>(squares)};
   glVertexArrayVertexBuffer(squares_array_.id(), 0, buffer.id(), 0, sizeof(glm::uvec2));

@@ -57,7 +57,7 @@ class Resolver {
   DrawTools& tools_;
   VisibleSquares squares_;
   bool has_colors_ = false, has_tangents_ = false;
-  gl::Texels pixels_{GL_R32UI}, coverage_{GL_RG8UI}, triangles_{GL_RG32UI}, records_{GL_RGBA32F};
+  gl::Texels pixels_{GL_R32UI}, coverage_{GL_RGBA8I}, triangles_{GL_RG32UI}, records_{GL_RGBA32F};
   SampleFragments fragments_;
   FragmentSheet sheet_;
   gl::VertexArray squares_array_ = gl::create_vertex_array();

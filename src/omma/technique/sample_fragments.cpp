@@ -3,27 +3,17 @@
 #include <tbb/parallel_for.h>
 
 #include <bit>
-#include <limits>
 
 namespace omma {
 namespace {
 
 /// Of a set of samples.
 SampleCoverage coverage_of(uint32_t set, std::span<const glm::dvec2> shifts) {
-  SampleCoverage coverage{uint8_t(std::popcount(set)), 0};
+  const int count = std::popcount(set);
   glm::dvec2 middle(0.0);
   for (uint32_t rest = set; rest != 0; rest &= rest - 1) middle += shifts[size_t(std::countr_zero(rest))];
-  middle /= double(coverage.count);
-  double least = std::numeric_limits<double>::infinity();
-  for (uint32_t rest = set; rest != 0; rest &= rest - 1) {
-    const auto sample = uint8_t(std::countr_zero(rest));
-    const glm::dvec2 offset = shifts[sample] - middle;
-    if (const double distance = glm::dot(offset, offset); distance < least) {
-      least = distance;
-      coverage.sample = sample;
-    }
-  }
-  return coverage;
+  const glm::dvec2 steps = glm::clamp(glm::round(middle * (SampleCoverage::steps / double(count))), -128.0, 127.0);
+  return {int8_t(count), int8_t(steps.x), int8_t(steps.y)};
 }
 
 }  // namespace

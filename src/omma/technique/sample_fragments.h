@@ -10,10 +10,12 @@
 
 namespace omma {
 
-/// How many of a pixel's samples see a triangle, or the background, and at which of them it is shaded: the one nearest
-/// to their middle. The middle itself may lie beside the triangle, where edges are curved and where a camera jumps.
+/// How many of a pixel's samples see a triangle, or the background, and where it is shaded: in their middle, in steps
+/// from the pixel's centre. One of the samples instead would move the picture.
 struct SampleCoverage {
-  uint8_t count = 0, sample = 0;
+  static constexpr double steps = 256.0;  ///< in a pixel
+  int8_t count = 0, x = 0, y = 0;
+  int8_t unused = 0;  ///< a texel has two components or four
 };
 
 /// One sample of every pixel is added after the other: what most samples see is kept once. Runs on all cores; the

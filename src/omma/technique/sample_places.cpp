@@ -7,7 +7,9 @@ namespace omma {
 std::vector<glm::ivec2> sample_places(int samples) {
   constexpr int parts = 256;
   if (samples <= 1) return {glm::ivec2(parts / 2)};
-  // Asked of a framebuffer of its own: what is bound may be anything.
+  // Asked of a framebuffer of its own: what is bound may be anything, and stays bound.
+  GLint bound = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   static constexpr Channel channels[] = {Channel::color};
   const Target target(ImageSize{1, 1}, channels, samples);
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
@@ -20,6 +22,7 @@ std::vector<glm::ivec2> sample_places(int samples) {
     glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(s), &place.x);
     places.emplace_back(glm::round(place * float(parts)));
   }
+  glBindFramebuffer(GL_FRAMEBUFFER, GLuint(bound));
   return places;
 }
 

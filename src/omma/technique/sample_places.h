@@ -7,7 +7,7 @@
 namespace omma {
 
 /// From the pixel's top left corner, in 1/256 px. As many as the driver gives for the asked number, at least as many;
-/// for one sample the pixel's centre. Binds another framebuffer.
+/// for one sample the pixel's centre.
 std::vector<glm::ivec2> sample_places(int samples);
 
 }  // namespace omma

@@ -20,7 +20,7 @@ namespace omma {
 struct DrawTools {
   const gl::Context& context;
   const GpuScene& scene;
-  ProgramCache programs{};
+  ProgramCache& programs;
   CameraTextures camera_textures{};
   gl::StageTimer timer{context.software()};
   gl::Counters counters{};  ///< of what surfaces cost, full-screen passes apart
