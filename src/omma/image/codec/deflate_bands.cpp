@@ -45,7 +45,7 @@ struct BandDeflater::Zlib {
 
   /// Tried on a sample from the band's middle.
   Search best_search(std::span<const uint8_t> bytes) {
-    constexpr size_t sample_size = 16384;
+    constexpr size_t sample_size = 8192;
     const size_t size = std::min(sample_size, bytes.size());
     const auto sample = bytes.subspan((bytes.size() - size) / 2, size);
     const size_t by_runs = deflated(sample, Search::runs, Z_FINISH).size();

@@ -106,7 +106,7 @@ struct Workplace {
 
 std::string encode_png(const Rows& rows, bool srgb, const std::string& xmp) {
   // Large enough that what a band does not see of the others costs nothing, small enough for many processors.
-  constexpr size_t band_bytes = size_t{1} << 19;
+  constexpr size_t band_bytes = size_t{1} << 18;
   const int band_rows = static_cast<int>(std::max<size_t>(1, band_bytes / (rows.row_bytes() + 1)));
   std::vector<Band> bands(size_t((rows.size.height + band_rows - 1) / band_rows));
   oneapi::tbb::enumerable_thread_specific<Workplace> workplaces;
