@@ -1,5 +1,4 @@
 // omma doctor: what this machine can do, and why not more.
-#include <OpenImageIO/oiioversion.h>
 #include <assimp/version.h>
 #include <embree3/rtcore_config.h>
 #include <fmt/format.h>
@@ -15,6 +14,7 @@
 #include "commands.h"
 #include "omma/base/error.h"
 #include "omma/gl/context.h"
+#include "omma/image/codec/decode.h"
 #include "omma/math/pose.h"
 #include "omma/technique/registry.h"
 #include "omma/technique/renderer.h"
@@ -47,8 +47,8 @@ void print_versions() {
   fmt::print("  omma            {}\n", OMMA_VERSION);
   fmt::print("  assimp          {}.{}.{}\n", aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch());
   fmt::print("  Embree          {}\n", RTC_VERSION_STRING);
-  fmt::print("  OpenImageIO     {}\n", OIIO_VERSION_STRING);
   fmt::print("  oneTBB          {}\n", TBB_runtime_version());
+  for (const auto& [name, version] : codec_versions()) fmt::print("  {:<16}{}\n", name, version);
 }
 
 void print_devices() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <set>
 
 #include "arguments.h"
@@ -203,40 +204,59 @@ class Job {
     Renderer renderer;
     renderer.load(scene);
     if (frames.size() == 1) {
-      stats.frames.push_back(render_frame(renderer, scene, frames.front()));
+      stats.frames.push_back(write(draw(renderer, scene, frames.front())));
       stats.setup_ms = stats.frames.back().render.setup_ms;
       report(stats.frames.back());
       return;
     }
     Progress progress("frames", static_cast<int>(frames.size()));
-    for (const Frame& frame : frames) {
-      if (view_.apply_time(scene, frame)) renderer.update();
-      FrameStats frame_stats = render_frame(renderer, scene, frame);
+    // A frame is written while the next is drawn, and no more than these two are in memory. When drawing fails, the
+    // frame before is still written: the future's destructor waits.
+    std::future<FrameStats> writing;
+    const auto finish = [&] {
+      if (!writing.valid()) return;
+      FrameStats frame_stats = writing.get();
       stats.setup_ms += frame_stats.render.setup_ms;
       if (stats_path_) stats.frames.push_back(std::move(frame_stats));
       progress.step();
+    };
+    for (const Frame& frame : frames) {
+      if (view_.apply_time(scene, frame)) renderer.update();
+      DrawnFrame drawn = draw(renderer, scene, frame);
+      finish();
+      writing = std::async(std::launch::async,
+                           [this, drawn = std::move(drawn)]() mutable { return write(std::move(drawn)); });
     }
+    finish();
   }
 
-  FrameStats render_frame(Renderer& renderer, const Scene& scene, const Frame& frame) const {
+  struct DrawnFrame {
     FrameStats stats;
-    stats.frame = frame.number;
-    const Camera camera = camera_of(frame);
-    auto begin = std::chrono::steady_clock::now();
-    const glm::dmat4 worldFromCamera = view_.worldFromCamera(scene, frame);
-    const std::map<Channel, Image> images =
-        renderer.render(camera, worldFromCamera, channels_, render_options_, &stats.render);
-    stats.render_ms = milliseconds_since(begin) - stats.render.setup_ms;
+    std::map<Channel, Image> images;
+    std::optional<PanoramaPlace> panorama;
+  };
 
-    begin = std::chrono::steady_clock::now();
-    const std::optional<PanoramaPlace> panorama = panorama_place(camera, worldFromCamera);
+  DrawnFrame draw(Renderer& renderer, const Scene& scene, const Frame& frame) const {
+    DrawnFrame drawn;
+    drawn.stats.frame = frame.number;
+    const Camera camera = camera_of(frame);
+    const auto begin = std::chrono::steady_clock::now();
+    const glm::dmat4 worldFromCamera = view_.worldFromCamera(scene, frame);
+    drawn.images = renderer.render(camera, worldFromCamera, channels_, render_options_, &drawn.stats.render);
+    drawn.stats.render_ms = milliseconds_since(begin) - drawn.stats.render.setup_ms;
+    drawn.panorama = panorama_place(camera, worldFromCamera);
+    return drawn;
+  }
+
+  FrameStats write(DrawnFrame drawn) const {
+    const auto begin = std::chrono::steady_clock::now();
     for (const Output& output : outputs_) {
-      const fs::path path = output.path_of(frame.number);
-      write_image(path, images.at(output.channel), output.channel, panorama);
-      stats.files.push_back(path.string());
+      const fs::path path = output.path_of(drawn.stats.frame);
+      write_image(path, drawn.images.at(output.channel), output.channel, drawn.panorama);
+      drawn.stats.files.push_back(path.string());
     }
-    stats.write_ms = milliseconds_since(begin);
-    return stats;
+    drawn.stats.write_ms = milliseconds_since(begin);
+    return std::move(drawn.stats);
   }
 
   void report(const FrameStats& frame) const {

@@ -88,6 +88,28 @@ TEST_F(Sequence, KilledRunLeavesOnlyWholeFilesAndGoesOn) {
   EXPECT_TRUE(fs::exists(file("f_011.npy")));
 }
 
+/// Frames are written while the next ones are drawn, and what becomes of them is said all the same.
+TEST_F(Sequence, FrameThatCannotBeWrittenEndsTheRun) {
+  ToolLimits full;
+  full.file_bytes = 1000;
+  expect_refusal({"render", "facade", "--camera", "equidistant", "--size", "32x24", "--samples", "1", "--frames", "4",
+                  "-o", "f_%d.npy"},
+                 4, {"f_0.npy", "cannot be written"}, full);
+}
+
+TEST_F(Sequence, FramesBeforeOneThatCannotBeDrawnAreWritten) {
+  std::string offsets = "PF\n4 4\n-1.0\n" + std::string(4 * 4 * 3 * 4, '\0');
+  write("o_0.pfm", offsets);
+  write("o_1.pfm", offsets);
+  write("o_2.pfm", "broken");
+  const ToolResult result = run({"render", "facade", "--camera", "camera_texture:file=o_%d.pfm,base=equidistant",
+                                 "--size", "32x24", "--samples", "1", "--frames", "3", "-o", "f_%d.npy"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_NE(result.err.find("o_2.pfm"), std::string::npos) << result.err;
+  EXPECT_TRUE(fs::exists(file("f_0.npy")) && fs::exists(file("f_1.npy")));
+  EXPECT_FALSE(fs::exists(file("f_2.npy")));
+}
+
 TEST_F(Sequence, FramesRunOverTheAnimationsTime) {
   const fs::path scene = fs::path(places::test_models) / "Collada/box_nested_animation.dae";
   if (!fs::exists(scene)) GTEST_SKIP() << "assimp-testmodels is not installed: " << scene;

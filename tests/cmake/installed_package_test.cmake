@@ -32,3 +32,17 @@ run(${CMAKE_COMMAND} --build ${WORK}/example)
 run(${WORK}/example/minimal room ${WORK}/example.png)
 run(${WORK}/moved/bin/omma render room --camera equidistant:fov_deg=180 --size 512x512 -o ${WORK}/tool.png)
 run(${WORK}/moved/bin/omma compare ${WORK}/example.png ${WORK}/tool.png --max-max 0)
+
+# A texture of a rare format is read by a module, which the tool finds beside itself.
+file(GLOB_RECURSE module ${BUILD}/lib*/omma_openimageio.so)
+if(module)
+  file(COPY ${SOURCE}/tests/unit/pictures/color.ppm DESTINATION ${WORK})
+  file(WRITE ${WORK}/square.mtl "newmtl a\nmap_Kd color.ppm\n")
+  file(WRITE ${WORK}/square.obj "mtllib square.mtl\nusemtl a\nv -1 -1 -2\nv 1 -1 -2\nv 0 1 -2\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+  execute_process(
+    COMMAND ${WORK}/moved/bin/omma render ${WORK}/square.obj --camera equidistant --size 64x64 -o ${WORK}/square.png
+    RESULT_VARIABLE status ERROR_VARIABLE said)
+  if(NOT status EQUAL 0 OR said MATCHES "cannot be used")
+    message(FATAL_ERROR "the installed tool does not read a texture in .ppm: exit code ${status}\n${said}")
+  endif()
+endif()

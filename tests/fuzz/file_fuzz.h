@@ -13,8 +13,10 @@
 #include <string>
 
 #include "omma/base/error.h"
+#include "omma/base/file.h"
 #include "omma/camera/camera.h"
 #include "omma/camera/pose_file.h"
+#include "omma/image/codec/decode.h"
 
 namespace omma {
 
@@ -55,6 +57,15 @@ inline void fuzz_camera(const std::string& text) {
 
 inline void fuzz_poses(const std::string& path) {
   fuzz_reader([&] { load_poses(path); });
+}
+
+/// The content says which format it is; what has no mark of its own is TGA.
+inline void fuzz_picture(const std::string& path) {
+  fuzz_reader([&] {
+    decode_picture(read_file(path), ".tga", [](const PictureInfo& info) {
+      if (int64_t{info.size.width} * info.size.height > 1 << 20) throw InputError("too large");
+    });
+  });
 }
 
 inline void fuzz_ray_map(const std::string& path) {

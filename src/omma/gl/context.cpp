@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "omma/base/error.h"
+#include "omma/gl/devices.h"
 
 namespace omma::gl {
 namespace {
@@ -155,6 +156,12 @@ std::vector<DeviceReport> probe_devices() {
     reports.push_back(report);
   }
   return reports;
+}
+
+bool lists_hardware_device() {
+  if (!egl_present()) return false;
+  const std::vector<EGLDeviceEXT> devices = egl_devices();
+  return std::any_of(devices.begin(), devices.end(), [](EGLDeviceEXT device) { return !is_software(device); });
 }
 
 struct Context::State {

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "omma/image/formats.h"
 #include "omma/math/heading.h"
 #include "omma/math/ray.h"
 
@@ -21,9 +20,5 @@ struct PanoramaPlace {
 /// Google's Photo Sphere XMP (GPano, https://developers.google.com/streetview/spherical-metadata) for a picture of
 /// `size`.
 std::string gpano_xmp(const PanoramaPlace& place, const ImageSize& size);
-
-/// An encoded .jpg or .png with an XMP packet: in an APP1 segment or an iTXt chunk. Other formats come back as they
-/// are.
-std::string with_xmp(std::string encoded, ImageFormat format, const std::string& xmp);
 
 }  // namespace omma

@@ -1,13 +1,14 @@
 #include "omma/image/read.h"
 
-#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <string_view>
+#include <limits>
+#include <vector>
 
 #include "omma/base/error.h"
 #include "omma/base/file.h"
+#include "omma/image/codec/decode.h"
 #include "omma/image/formats.h"
 #include "omma/image/npy.h"
 #include "omma/image/pfm.h"
@@ -43,61 +44,71 @@ Image read_npy_image(const fs::path& path) {
   return image_of(array.values);
 }
 
-template <typename T>
-ImageOf<T> read_components(OIIO::ImageInput& input, const fs::path& path, int components, OIIO::TypeDesc type) {
-  ImageOf<T> image({input.spec().width, input.spec().height}, components);
-  if (!input.read_image(0, 0, 0, components, type, image.values.data())) {
-    throw InputError("{}: broken or truncated ({})", path.string(), input.geterror());
+Pixels decode(const fs::path& path, ImageFormat format) {
+  const std::string bytes = read_file(path);
+  const auto accept = [&](const PictureInfo& info) {
+    const int components = info.alpha > 0 ? info.alpha : info.components;
+    if (int64_t{info.size.width} * info.size.height > max_pixels || components > max_components) {
+      throw InputError("{} x {} pixels of {} components; up to {} pixels of {} are read", info.size.width,
+                       info.size.height, components, max_pixels, max_components);
+    }
+  };
+  try {
+    switch (format) {
+      case ImageFormat::png:
+        return decode_png(bytes, accept);
+      case ImageFormat::jpg:
+        return decode_jpeg(bytes, accept);
+      default:
+        return decode_exr(bytes, accept);
+    }
+  } catch (const InputError& error) {
+    throw InputError("{}: {}", path.string(), error.what());
+  }
+}
+
+/// The image without its alpha; `value(sample, alpha)` makes what it holds.
+template <typename T, typename S, typename Value>
+ImageOf<T> without_alpha(const Pixels& pixels, const std::vector<S>& samples, const Value& value) {
+  const int alpha = pixels.info.alpha;
+  ImageOf<T> image(pixels.info.size, alpha > 0 ? alpha : pixels.info.components);
+  const S* from = samples.data();
+  T* to = image.values.data();
+  for (size_t i = 0; i < image.values.size() / size_t(image.components); ++i, from += pixels.stored()) {
+    const S cover = alpha > 0 ? from[alpha] : std::numeric_limits<S>::max();
+    for (int c = 0; c < image.components; ++c) *to++ = value(from[c], cover);
   }
   return image;
 }
 
-/// Decoders fill in what a truncated file lacks, or complain on standard error by themselves.
-void require_whole(const fs::path& path, ImageFormat format) {
-  using namespace std::string_view_literals;
-  const std::string bytes = read_file(path);
-  if (bytes.empty()) throw InputError("{}: the file is empty", path.string());
-  constexpr size_t slack = 1024;  // some programs append something
-  const std::string_view end = std::string_view(bytes).substr(bytes.size() - std::min(bytes.size(), slack));
-  const std::string_view mark = format == ImageFormat::png   ? "IEND"sv
-                                : format == ImageFormat::jpg ? "\xff\xd9"sv
-                                                             : ""sv;
-  if (end.find(mark) == std::string_view::npos) {
-    throw InputError("{}: truncated, or no image of its extension (the mark of the file's end is missing)",
-                     path.string());
-  }
+/// Numbers of a .png or .jpg, which are colour; a pixel that is not wholly there is that much darker.
+template <typename S>
+FloatImage linear_image(const Pixels& pixels, const std::vector<S>& samples) {
+  constexpr uint32_t largest = std::numeric_limits<S>::max();
+  std::vector<float> linear(largest + 1);
+  for (uint32_t i = 0; i <= largest; ++i) linear[i] = linear_from_srgb(float(i) * (1.0f / float(largest)));
+  return without_alpha<float>(pixels, samples,
+                              [&](S sample, S alpha) { return linear[uint32_t{sample} * alpha / largest]; });
 }
 
 Image read_encoded(const fs::path& path, ImageFormat format) {
-  require_whole(path, format);
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
-  if (!input) {
-    throw InputError("{}: is not an image of its extension ({})", path.string(), OIIO::geterror());
-  }
-  const OIIO::ImageSpec& spec = input->spec();
-  // Alpha comes last in every format read here.
-  const int components = spec.alpha_channel > 0 ? spec.alpha_channel : spec.nchannels;
-  if (spec.width <= 0 || spec.height <= 0 || int64_t{spec.width} * spec.height > max_pixels ||
-      components > max_components) {
-    throw InputError("{}: {} x {} pixels of {} components; up to {} pixels of {} are read", path.string(), spec.width,
-                     spec.height, components, max_pixels, max_components);
-  }
-  if (format == ImageFormat::exr) {
-    if (spec.format == OIIO::TypeUInt32) {
-      return read_components<int32_t>(*input, path, components, OIIO::TypeUInt32);
-    }
-    return read_components<float>(*input, path, components, OIIO::TypeFloat);
-  }
-  if (format == ImageFormat::png && components == 1 && spec.format == OIIO::TypeUInt16) {
-    const auto numbers = read_components<uint16_t>(*input, path, 1, OIIO::TypeUInt16);
-    IntImage image(numbers.size, 1);
-    std::transform(numbers.values.begin(), numbers.values.end(), image.values.begin(),
-                   [](uint16_t number) { return int32_t{number} - 1; });
-    return image;
-  }
-  FloatImage image = read_components<float>(*input, path, components, OIIO::TypeFloat);
-  std::transform(image.values.begin(), image.values.end(), image.values.begin(), linear_from_srgb);
-  return image;
+  const Pixels pixels = decode(path, format);
+  const auto as_it_is = [](auto sample, auto) { return sample; };
+  return std::visit(
+      [&]<typename S>(const std::vector<S>& samples) -> Image {
+        if constexpr (std::is_same_v<S, float>) {
+          return without_alpha<float>(pixels, samples, as_it_is);
+        } else if constexpr (std::is_same_v<S, uint32_t>) {
+          return without_alpha<int32_t>(pixels, samples, as_it_is);
+        } else if (std::is_same_v<S, uint16_t> && pixels.info.components <= 2) {
+          return without_alpha<int32_t>(pixels, samples, [](uint32_t number, uint32_t alpha) {
+            return static_cast<int32_t>(number * alpha / 65535U) - 1;
+          });
+        } else {
+          return linear_image(pixels, samples);
+        }
+      },
+      pixels.samples);
 }
 
 }  // namespace

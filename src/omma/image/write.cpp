@@ -1,19 +1,15 @@
 #include "omma/image/write.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "omma/base/error.h"
 #include "omma/base/file.h"
 #include "omma/base/names.h"
+#include "omma/image/codec/encode.h"
 #include "omma/image/formats.h"
 #include "omma/image/npy.h"
 #include "omma/image/pfm.h"
-#include "omma/image/srgb.h"
+#include "omma/image/srgb8.h"
 
 namespace omma {
 namespace {
@@ -48,56 +44,61 @@ std::vector<std::string> component_names(const ChannelInfo& channel) {
   }
 }
 
-/// Encodes in memory and writes the bytes ourselves: not every encoder notices a full disk.
-void encode(const fs::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels,
-            const std::string& xmp = {}) {
-  OIIO::Filesystem::IOVecOutput memory;
-  const std::string name = "image" + path.extension().string();
-  const auto output = OIIO::ImageOutput::create(name, &memory);
-  if (!output || !output->open(name, spec) || !output->write_image(type, pixels) || !output->close()) {
-    throw MachineError("{}: cannot be encoded ({})", path.string(), output ? output->geterror() : OIIO::geterror());
+/// Encoded in memory, so that a full disk is noticed in one place.
+template <typename Encode>
+void write_encoded(const fs::path& path, const Encode& encode) {
+  std::string bytes;
+  try {
+    bytes = encode();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw MachineError("{}: cannot be encoded ({})", path.string(), error.what());
   }
-  std::string bytes(reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size());
-  if (!xmp.empty()) bytes = with_xmp(std::move(bytes), find_image_format(path)->format, xmp);
   write_text(path, bytes);
 }
 
-void write_srgb8(const fs::path& path, const FloatImage& image, const std::optional<PanoramaPlace>& panorama) {
-  std::vector<uint8_t> bytes(image.values.size());
-  std::transform(image.values.begin(), image.values.end(), bytes.begin(),
-                 [](float linear) { return static_cast<uint8_t>(std::lround(255.0f * srgb_from_linear(linear))); });
-  OIIO::ImageSpec spec(image.size.width, image.size.height, image.components, OIIO::TypeUInt8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("CompressionQuality", 95);
-  spec.attribute("jpeg:subsampling", "4:4:4");
-  encode(path, spec, OIIO::TypeUInt8, bytes.data(), panorama ? gpano_xmp(*panorama, image.size) : std::string());
+void write_srgb8(const fs::path& path, ImageFormat format, const FloatImage& image,
+                 const std::optional<PanoramaPlace>& panorama) {
+  constexpr int jpeg_quality = 95;
+  const std::string xmp = panorama ? gpano_xmp(*panorama, image.size) : std::string();
+  const Rows rows{.size = image.size, .components = image.components, .fill = [&](int y, uint8_t* to) {
+                    srgb8_from_linear(image.at(0, y), to, size_t(image.size.width) * size_t(image.components));
+                  }};
+  write_encoded(path, [&] {
+    return format == ImageFormat::jpg ? encode_jpeg(rows, jpeg_quality, xmp) : encode_png(rows, true, xmp);
+  });
 }
 
 void write_png16(const fs::path& path, const IntImage& image, const ChannelInfo& channel) {
   constexpr int largest = 65534;
-  std::vector<uint16_t> numbers(image.values.size());
-  std::transform(image.values.begin(), image.values.end(), numbers.begin(), [&](int32_t value) {
+  for (const int32_t value : image.values) {
     if (value < -1 || value > largest) {
       throw CommandError("{}: .png holds numbers up to {}, this picture has {} {}; .exr, .npy hold it", path.string(),
                          largest, channel.name, value);
     }
-    return static_cast<uint16_t>(value + 1);
-  });
-  const OIIO::ImageSpec spec(image.size.width, image.size.height, image.components, OIIO::TypeUInt16);
-  encode(path, spec, OIIO::TypeUInt16, numbers.data());
+  }
+  const Rows rows{.size = image.size, .components = image.components, .bits = 16, .fill = [&](int y, uint8_t* to) {
+                    const int32_t* from = image.at(0, y);
+                    for (int i = 0; i < image.size.width * image.components; ++i) {
+                      const int32_t number = from[i] + 1;
+                      *to++ = static_cast<uint8_t>(number >> 8);
+                      *to++ = static_cast<uint8_t>(number);
+                    }
+                  }};
+  write_encoded(path, [&] { return encode_png(rows, false, {}); });
 }
 
 template <typename T>
 void write_exr(const fs::path& path, const ImageOf<T>& image, const ChannelInfo& channel,
                const std::optional<PanoramaPlace>& panorama) {
-  // -1 and 4294967295 are the same 32 bits.
-  const OIIO::TypeDesc type = std::is_same_v<T, float> ? OIIO::TypeFloat : OIIO::TypeUInt32;
-  OIIO::ImageSpec spec(image.size.width, image.size.height, image.components, type);
-  spec.channelnames = component_names(channel);
-  spec.attribute("compression", "zip");
-  // OpenImageIO's name for OpenEXR's attribute envmap = LATLONG, which knows only the whole sphere.
-  if (panorama && panorama->full == image.size) spec.attribute("textureformat", "LatLong Environment");
-  encode(path, spec, type, image.values.data());
+  const ExrPicture picture{.size = image.size,
+                           .channels = component_names(channel),
+                           // -1 and 4294967295 are the same 32 bits.
+                           .type = std::is_same_v<T, float> ? ExrType::float32 : ExrType::uint32,
+                           .samples = image.values.data(),
+                           .latlong = panorama && panorama->full == image.size};
+  write_encoded(path, [&] { return encode_exr(picture); });
 }
 
 template <typename T>
@@ -131,7 +132,7 @@ void write_image(const fs::path& path, const Image& image, Channel channel,
         if constexpr (std::is_same_v<T, int32_t>) {
           write_png16(path, typed, info);
         } else {
-          format == ImageFormat::pfm ? write_pfm(path, typed) : write_srgb8(path, typed, place);
+          format == ImageFormat::pfm ? write_pfm(path, typed) : write_srgb8(path, format, typed, place);
         }
       },
       image);

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "omma/base/error.h"
+#include "omma/gl/devices.h"
 #include "omma/software/software_renderer.h"
 #include "omma/technique/gpu_renderer.h"
 #include "omma/technique/registry.h"
@@ -50,7 +51,7 @@ struct Renderer::Parts {
     return *scene;
   }
   void open_gl();
-  /// Opens a context to see.
+  /// Opens a context to see where EGL lists a GPU at all.
   bool has_gpu();
   std::map<Channel, Image> render_without_gl(const Camera& camera, const glm::dmat4& worldFromCamera,
                                              std::span<const Channel> wanted, const RenderOptions& options,
@@ -58,6 +59,7 @@ struct Renderer::Parts {
 };
 
 bool Renderer::Parts::has_gpu() {
+  if (!gpu_at_hand && gpu == nullptr && !gl::lists_hardware_device()) gpu_at_hand = false;
   if (!gpu_at_hand) {
     try {
       if (gpu == nullptr) gpu = std::make_unique<GpuRenderer>();

@@ -1,15 +1,11 @@
 // Pictures, embedded in a scene file or beside it, as 8-bit RGBA.
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cstring>
-#include <memory>
 #include <optional>
 
 #include "omma/base/error.h"
 #include "omma/base/file.h"
+#include "omma/image/codec/decode.h"
 #include "omma/scene/file/import.h"
 
 namespace omma::file {
@@ -30,73 +26,41 @@ void set_placeholder(Texture& texture) {
   }
 }
 
-/// OpenImageIO chooses a reader by extension first, and pictures embedded in files have none.
-std::string extension_of_content(const unsigned char* bytes, size_t size) {
-  const auto begins = [&](std::string_view magic) {
-    return size >= magic.size() && std::memcmp(bytes, magic.data(), magic.size()) == 0;
-  };
-  if (begins("\x89PNG")) return ".png";
-  if (begins("\xFF\xD8")) return ".jpg";
-  if (begins("DDS ")) return ".dds";
-  if (begins("GIF8")) return ".gif";
-  if (begins("BM")) return ".bmp";
-  if (begins("RIFF")) return ".webp";
-  return "";
+void require_usable(int64_t width, int64_t height) {
+  if (width < 1 || height < 1 || width > max_side || height > max_side) {
+    throw InputError("it is {} x {}; at most {} x {} can be used", width, height, max_side, max_side);
+  }
 }
 
 /// Throws InputError saying why.
-void decode(const std::vector<unsigned char>& bytes, std::string extension, Texture& texture) {
-  const std::string sniffed = extension_of_content(bytes.data(), bytes.size());
-  if (!sniffed.empty()) extension = sniffed;
-  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-  OIIO::ImageSpec wishes;
-  // Without this OpenImageIO multiplies colour by alpha, and the edges of leaves turn black.
-  wishes.attribute("oiio:UnassociatedAlpha", 1);
-  // Readers given wishes look for the memory among them, and only there.
-  OIIO::Filesystem::IOProxy* proxy = &memory;
-  wishes.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  auto input = OIIO::ImageInput::open("picture" + extension, &wishes, proxy);
-  if (!input) {
-    const std::string why = OIIO::geterror();
-    throw InputError("{}", why.empty() ? "it is no picture of a known format" : why);
-  }
-  const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > max_side || spec.height > max_side || spec.nchannels < 1 ||
-      spec.depth > 1) {
-    throw InputError("it is {} x {} with {} channels; at most {} x {} can be used", spec.width, spec.height,
-                     spec.nchannels, max_side, max_side);
-  }
-  const int channels = std::min(spec.nchannels, 4);
-  const size_t count = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
-  std::vector<unsigned char> values(count * static_cast<size_t>(channels));
-  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, values.data())) {
-    throw InputError("{}", input->geterror());
-  }
-  texture.width = spec.width;
-  texture.height = spec.height;
-  texture.texels.resize(count);
-  for (size_t i = 0; i < count; ++i) {
-    const unsigned char* v = &values[i * static_cast<size_t>(channels)];
-    texture.texels[i] = channels == 1   ? glm::u8vec4(v[0], v[0], v[0], 255)
-                        : channels == 2 ? glm::u8vec4(v[0], v[0], v[0], v[1])
-                        : channels == 3 ? glm::u8vec4(v[0], v[1], v[2], 255)
-                                        : glm::u8vec4(v[0], v[1], v[2], v[3]);
+void decode(std::string_view bytes, const std::string& extension, Texture& texture) {
+  Pixels pixels = decode_picture(bytes, extension,
+                                 [](const PictureInfo& info) { require_usable(info.size.width, info.size.height); });
+  texture.width = pixels.info.size.width;
+  texture.height = pixels.info.size.height;
+  const size_t components = size_t(pixels.stored());
+  const std::vector<uint8_t> values = to_8_bits(std::move(pixels));
+  texture.texels.resize(values.size() / components);
+  for (size_t i = 0; i < texture.texels.size(); ++i) {
+    const uint8_t* v = &values[i * components];
+    texture.texels[i] = components == 1   ? glm::u8vec4(v[0], v[0], v[0], 255)
+                        : components == 2 ? glm::u8vec4(v[0], v[0], v[0], v[1])
+                        : components == 3 ? glm::u8vec4(v[0], v[1], v[2], 255)
+                                          : glm::u8vec4(v[0], v[1], v[2], v[3]);
   }
 }
 
 /// assimp gives pictures as a file's bytes (height 0) or as plain BGRA texels.
 void decode(const aiTexture& source, Texture& texture) {
   if (source.mHeight == 0) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(source.pcData);
+    const auto* bytes = reinterpret_cast<const char*>(source.pcData);
     if (!bytes || source.mWidth == 0) throw InputError("it is empty");
     std::string extension = source.achFormatHint[0] ? source.achFormatHint : "";
     if (!extension.empty()) extension = "." + extension;
-    decode(std::vector<unsigned char>(bytes, bytes + source.mWidth), extension, texture);
+    decode({bytes, source.mWidth}, extension, texture);
     return;
   }
-  if (source.mWidth > max_side || source.mHeight > max_side || source.mWidth == 0) {
-    throw InputError("it is {} x {}; at most {} x {} can be used", source.mWidth, source.mHeight, max_side, max_side);
-  }
+  require_usable(source.mWidth, source.mHeight);
   texture.width = static_cast<int>(source.mWidth);
   texture.height = static_cast<int>(source.mHeight);
   for (size_t i = 0; i < size_t{source.mWidth} * source.mHeight; ++i) {
@@ -164,8 +128,7 @@ int import_texture(Import& import, const std::string& name, bool srgb, Texture::
       const auto path = find_picture(
           import.path.parent_path().empty() ? std::filesystem::path(".") : import.path.parent_path(), name);
       if (!path) throw InputError("there is no such file");
-      const std::string content = read_file(*path);
-      decode(std::vector<unsigned char>(content.begin(), content.end()), path->extension().string(), texture);
+      decode(read_file(*path), path->extension().string(), texture);
     }
   } catch (const Error& error) {
     warn(fmt::format("{}: texture '{}' cannot be used ({}); a checker of magenta and black stands in",
