@@ -1,6 +1,7 @@
 #!/bin/sh
 # Renders the pictures of README.md and docs/effects.md into docs/images/: docs/gallery.sh
-# The real scene lies in $OMMA_SHARED_DATA, or in ../shared/data beside the checkout.
+# The real scene lies in $OMMA_SHARED_DATA, or in ../shared/data beside the checkout. README.md's comparison with a cube
+# map is made by docs/comparison.sh.
 set -eu
 cd "$(dirname "$0")/.."
 sponza=${OMMA_SHARED_DATA:-../shared/data}/sponza/sponza.gltf

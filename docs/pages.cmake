@@ -40,7 +40,7 @@ surfaces before they are lit, or draws over them afterwards; up to four effects 
 triangle, and how they change from pixel to pixel, and nothing of cameras.
 
 A pixel of width is one of the image in every technique but `image-based`, which draws on cube faces: there it is a texel,
-and what comes out varies with the lens ([benchmarks.md](benchmarks.md#effects-over-the-image)). At triangles' edges lines are
+and what comes out varies with the lens ([results/effects.md](results/effects.md)). At triangles' edges lines are
 smooth; at outlines, where half of a line is seen, `--samples` smooths them. Metres are the world's, in single precision:
 within some kilometres of its origin they are good to a millimetre. Colours are `black`, `white`, `grey`, `red`, `green`,
 `blue`, `yellow`, or six hexadecimal digits of sRGB. Only `color` has effects; the background has none.

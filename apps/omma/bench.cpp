@@ -1,4 +1,4 @@
-// omma bench: the tables of docs/benchmarks.md.
+// omma bench: the tables of docs/benchmarks.md and docs/results/.
 #include "bench/bench.h"
 
 #include <fmt/format.h>

@@ -194,6 +194,7 @@ class Job {
       warn(fmt::format("{}: has no animation, the time changes nothing", scene_text_));
     }
     if (reflect_) render_options_.reflect = find_object(scene, *reflect_);
+    view_.stand(scene, camera_);
     view_.apply_time(scene, frames.front());
     if (const std::string choice = view_.unspoken_choice(scene); !choice.empty()) {
       fmt::print(stderr, "{}\n", choice);

@@ -92,10 +92,20 @@ bool View::apply_time(Scene& scene, const Frame& frame) const {
   return true;
 }
 
+bool View::needs_default(const Scene& scene) const {
+  if (frames_.front().worldFromCamera || (from_ && to_)) return false;
+  return !from_scene() || scene.cameras.empty();
+}
+
+void View::stand(Scene& scene, const Camera& camera) {
+  apply_time(scene, frames_.front());
+  if (needs_default(scene)) default_ = default_viewpoint(scene, camera);
+}
+
 glm::dmat4 View::worldFromCamera(const Scene& scene, const Frame& frame) const {
   if (frame.worldFromCamera) return *frame.worldFromCamera;
   if (from_scene() && !scene.cameras.empty()) return scene.cameras.front().worldFromCamera;
-  const glm::dvec3 from = from_.value_or(scene.default_from), to = to_.value_or(scene.default_to);
+  const glm::dvec3 from = from_.value_or(default_.from), to = to_.value_or(default_.to);
   if (from == to) {
     throw CommandError("the view goes from {} to the same point; give both --from and --to", text_of(from));
   }
@@ -104,11 +114,9 @@ glm::dmat4 View::worldFromCamera(const Scene& scene, const Frame& frame) const {
 
 std::string View::unspoken_choice(const Scene& scene) const {
   if (frames_.front().worldFromCamera || (from_ && to_)) return {};
-  if (from_scene() && !scene.cameras.empty()) {
-    return fmt::format("view: the scene's camera '{}'", scene.cameras.front().name);
-  }
-  return fmt::format("view: --from {} --to {}{}", text_of(from_.value_or(scene.default_from)),
-                     text_of(to_.value_or(scene.default_to)),
+  if (!needs_default(scene)) return fmt::format("view: the scene's camera '{}'", scene.cameras.front().name);
+  return fmt::format("view: --from {} --to {}{}", text_of(from_.value_or(default_.from)),
+                     text_of(to_.value_or(default_.to)),
                      from_scene() ? " (the scene's default)" : " (what is not given is the scene's default)");
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "arguments.h"
+#include "omma/camera/camera.h"
 #include "omma/scene/scene.h"
+#include "omma/viewpoint/viewpoint.h"
 
 namespace omma::tool {
 
@@ -38,6 +40,9 @@ class View {
 
   /// Moves the scene to the frame's time. Returns whether anything moved.
   bool apply_time(Scene& scene, const Frame& frame) const;
+  /// Chooses where to stand when the command does not say: for all frames where one would at the time of the first,
+  /// which the scene is left at.
+  void stand(Scene& scene, const Camera& camera);
   /// The pose of a frame in a scene that is at the frame's time. Throws CommandError when there is none.
   glm::dmat4 worldFromCamera(const Scene& scene, const Frame& frame) const;
   /// Where the view of this scene comes from, when the command did not say; empty when it did.
@@ -46,9 +51,11 @@ class View {
  private:
   void set_frames_from_poses(const std::string& file, const Text& time);
   void set_frames_from_time(const ViewOptions& options);
+  bool needs_default(const Scene& scene) const;
   bool from_scene() const { return !from_ && !to_ && !up_; }
 
   std::optional<glm::dvec3> from_, to_, up_;
+  Viewpoint default_;
   std::string animation_;
   std::vector<Frame> frames_;
   bool sequence_ = false;

@@ -8,6 +8,7 @@
 #include "omma/math/pose.h"
 #include "omma/scene/scene.h"
 #include "omma/technique/renderer.h"
+#include "omma/viewpoint/viewpoint.h"
 
 int main(int argc, char** argv) {
   if (argc != 3) {
@@ -17,7 +18,8 @@ int main(int argc, char** argv) {
   try {
     const omma::Scene scene = omma::load_scene(argv[1]);
     const omma::Camera camera = omma::make_camera("equidistant:fov_deg=180", omma::ImageSize{512, 512});
-    const glm::dmat4 worldFromCamera = omma::look_at_worldFromCamera(scene.default_from, scene.default_to);
+    const omma::Viewpoint view = omma::default_viewpoint(scene, camera);
+    const glm::dmat4 worldFromCamera = omma::look_at_worldFromCamera(view.from, view.to);
 
     omma::Renderer renderer;
     renderer.load(scene);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "omma/base/file.h"
 #include "omma/image/read.h"
@@ -128,6 +129,26 @@ TEST_F(RenderCommand, ViewThatIsNotGivenIsSaid) {
   const ToolResult given = run(render({"-o", "b.png", "--from", "-3,1,20", "--to", "0,1,0"}));
   ASSERT_EQ(given.exit_code, 0) << given.err;
   EXPECT_EQ(given.err.find("view: "), std::string::npos);
+}
+
+TEST_F(RenderCommand, ViewThatIsSaidDrawsTheSamePicture) {
+  write("pyramid.obj", "v 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0.3 1.7 -0.2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n");
+  const std::vector<std::string> words{"render", "pyramid.obj", "--camera", "equidistant:fov_deg=180",
+                                       "--size", "64x64"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return run(more);
+  };
+  const ToolResult result = with({"-o", "a.npy"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::istringstream said(result.err.substr(result.err.find("--from")));
+  std::string word, from, to;
+  said >> word >> from >> word >> to;
+  ASSERT_EQ(with({"-o", "b.npy", "--from", from, "--to", to}).exit_code, 0);
+  EXPECT_EQ(run({"compare", "a.npy", "b.npy", "--max-max", "0"}).exit_code, 0);
+  // Another lens has another view of an object, and the same one in every frame.
+  EXPECT_EQ(with({"-o", "c_%d.npy", "--frames", "2"}).exit_code, 0);
+  EXPECT_EQ(run({"compare", "c_0.npy", "c_1.npy", "--max-max", "0"}).exit_code, 0);
 }
 
 TEST_F(RenderCommand, NegativeNumbersAreValues) {

@@ -385,6 +385,7 @@ TEST_F(SceneFileTest, FilesAreSeenFromInFrontUnlessTheySay) {
   EXPECT_EQ(scene.default_to, glm::dvec3(0.5, 0.5, 0));
   EXPECT_GT(scene.default_from.z, 0.5);
   EXPECT_NEAR(glm::distance(scene.default_from, scene.default_to), 1.3 * std::sqrt(2.0), 1e-9);
+  EXPECT_TRUE(scene.default_is_guess);
 }
 
 }  // namespace

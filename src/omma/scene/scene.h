@@ -168,10 +168,12 @@ struct Scene {
   std::vector<SceneCamera> cameras;
   std::vector<Animation> animations;
 
-  /// A place to stand when neither the user nor the file names one. For a file: looking at the centre of its bounds
-  /// from the front, to the right and above, 1.3 times the bounds' diagonal away.
+  /// A place to stand when neither the user nor the file names one.
   glm::dvec3 default_from{0.0, 0.0, 5.0};
   glm::dvec3 default_to{0.0};
+  /// Nobody chose it: a file's is in front of the centre of its bounds, to the right and above, 1.3 times their
+  /// diagonal away. omma/viewpoint has better, for a camera.
+  bool default_is_guess = false;
 
   size_t triangle_count() const;  ///< over all instances
   Bounds bounds() const;          ///< world, over all instances

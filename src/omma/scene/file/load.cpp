@@ -218,6 +218,7 @@ void set_default_view(Scene& scene) {
   scene.default_to = bounds.center();
   scene.default_from =
       scene.default_to + glm::normalize(glm::dvec3(0.6, 0.4, 1.0)) * (diagonal > 0.0 ? 1.3 * diagonal : 1.0);
+  scene.default_is_guess = true;
 }
 
 void require_readable(const Assimp::Importer& importer, const std::filesystem::path& path,
