@@ -32,10 +32,13 @@ TEST_P(ClosedSceneTest, HasNoHoles) {
   const Scene scene = load_scene("room");
   const Bounds bounds = scene.bounds();
   renderer().load(scene);
-  std::vector<std::string> names;
+  std::vector<std::string> able, names;
   for (const std::string& technique : names_of_techniques()) {
     // Vertices alone do not make a closed picture.
-    if (can_draw(technique, camera) && technique != "vertex") names.push_back(technique);
+    if (can_draw(technique, camera) && technique != "vertex") able.push_back(technique);
+  }
+  for (size_t i = 0; i < able.size(); ++i) {
+    if (is_proved_today(GetParam(), i, able.size())) names.push_back(able[i]);
   }
   if (names.empty()) GTEST_SKIP() << "refused";
   size_t seen = 0, strays = 0;
