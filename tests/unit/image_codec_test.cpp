@@ -2,6 +2,7 @@
 // other programs. In color_* red is 36 x, green 60 y, blue 255 - 36 x; grey_* is 30 x + 15 y; with alpha_* and
 // greyalpha_* comes an alpha of 255 - 20 (x + y).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include "omma/base/error.h"
 #include "omma/base/file.h"
 #include "omma/image/codec/decode.h"
+#include "omma/image/codec/encode.h"
 #include "omma/image/read.h"
 #include "omma/image/srgb.h"
 #include "tests/places.h"
@@ -131,6 +133,23 @@ TEST(ImageCodec, ImagesAreReadInLinearLightAndWithoutAlpha) {
   const auto linear = std::get<FloatImage>(read_image(picture("alpha_tiles.exr")));
   ASSERT_EQ(linear.components, 3);
   EXPECT_FLOAT_EQ(linear.at(3, 2)[1], 120.0f / 255.0f);
+}
+
+TEST(ImageCodec, ChannelsOfLayersFollowThoseOfNone) {
+  std::vector<float> values(size_t{5} * 35);
+  for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 5);
+  const std::string exr =
+      encode_exr({.size = size, .channels = {"a.A", "a.R", "a.B", "Z", "a.G"}, .samples = values.data()});
+  const Pixels pixels = decode_exr(exr, accept_all);
+  EXPECT_EQ(pixels.info.components, 5);
+  EXPECT_EQ(pixels.info.alpha, 4);
+  const auto& samples = std::get<std::vector<float>>(pixels.samples);
+  EXPECT_EQ(std::vector<float>(samples.begin(), samples.begin() + 4), (std::vector<float>{3, 1, 4, 2}));
+  const fs::path path = fs::temp_directory_path() / fmt::format("omma_layers_{}.exr", ::getpid());
+  write_text(path, exr);
+  const auto image = std::get<FloatImage>(read_image(path));
+  fs::remove(path);
+  EXPECT_EQ(image.values, samples);
 }
 
 TEST(ImageCodec, SizeIsAskedForBeforeItIsAllocated) {

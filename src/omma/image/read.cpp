@@ -72,10 +72,11 @@ template <typename T, typename S, typename Value>
 ImageOf<T> without_alpha(const Pixels& pixels, const std::vector<S>& samples, const Value& value) {
   const int alpha = pixels.info.alpha;
   ImageOf<T> image(pixels.info.size, alpha > 0 ? alpha : pixels.info.components);
+  const bool covers = alpha > 0 && alpha < pixels.stored();
   const S* from = samples.data();
   T* to = image.values.data();
   for (size_t i = 0; i < image.values.size() / size_t(image.components); ++i, from += pixels.stored()) {
-    const S cover = alpha > 0 ? from[alpha] : std::numeric_limits<S>::max();
+    const S cover = covers ? from[alpha] : std::numeric_limits<S>::max();
     for (int c = 0; c < image.components; ++c) *to++ = value(from[c], cover);
   }
   return image;
