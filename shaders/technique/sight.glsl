@@ -26,7 +26,8 @@ vec2 sight_pixel() {
 #else
   vec2 pixel = gl_FragCoord.xy + pixel_offset;
 #endif
-#ifdef SAMPLES
+#if defined SAMPLES && !defined EFFECTS
+  // Effects measure a pixel from its middle: a line of a pixel's width would come out thinner beside it.
   pixel += vec2(texelFetch(coverage, sight_number()).yz) / 256.0;
 #endif
   return pixel;

