@@ -98,7 +98,10 @@ bool View::needs_default(const Scene& scene) const {
 }
 
 void View::stand(Scene& scene, const Camera& camera) {
-  apply_time(scene, frames_.front());
+  // As the animation begins: a picture of one time shows what the same frame of a sequence does.
+  Frame begin = frames_.front();
+  if (begin.time) begin.time = 0.0;
+  apply_time(scene, begin);
   if (needs_default(scene)) default_ = default_viewpoint(scene, camera);
 }
 

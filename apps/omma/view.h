@@ -40,8 +40,8 @@ class View {
 
   /// Moves the scene to the frame's time. Returns whether anything moved.
   bool apply_time(Scene& scene, const Frame& frame) const;
-  /// Chooses where to stand when the command does not say: for all frames where one would at the time of the first,
-  /// which the scene is left at.
+  /// Chooses where to stand when the command does not say: for all frames where one would as the animation
+  /// begins, at which the scene is left.
   void stand(Scene& scene, const Camera& camera);
   /// The pose of a frame in a scene that is at the frame's time. Throws CommandError when there is none.
   glm::dmat4 worldFromCamera(const Scene& scene, const Frame& frame) const;

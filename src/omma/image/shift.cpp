@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace omma {
@@ -24,19 +23,18 @@ FloatImage halved(const FloatImage& image) {
 
 constexpr int taps = 8;
 
-/// What lies `fraction` (0 to 1) behind the fourth of eight neighbours: Lanczos's windowed sinc. Four neighbours and a
-/// cubic would move fine structure by up to a sixth less than they are asked to.
+/// What lies `fraction` (0 to 1) behind the fourth of eight neighbours, by the polynomial through them all (Lagrange). It
+/// moves smooth structure by just as much as it is asked to, and fine structure nearly so, which a cubic does not.
 std::array<float, taps> weights_of(double fraction) {
-  if (fraction == 0.0) return {0.0f, 0.0f, 0.0f, 1.0f};
-  std::array<double, taps> exact{};
-  double sum = 0.0;
-  for (int k = 0; k < taps; ++k) {
-    const double x = std::numbers::pi * (fraction + taps / 2 - 1 - k), window = x / (taps / 2);
-    exact[size_t(k)] = std::sin(x) / x * std::sin(window) / window;
-    sum += exact[size_t(k)];
-  }
   std::array<float, taps> weights{};
-  for (size_t k = 0; k < weights.size(); ++k) weights[k] = float(exact[k] / sum);
+  const double place = fraction + taps / 2 - 1;
+  for (int k = 0; k < taps; ++k) {
+    double weight = 1.0;
+    for (int j = 0; j < taps; ++j) {
+      if (j != k) weight *= (place - j) / (k - j);
+    }
+    weights[size_t(k)] = float(weight);
+  }
   return weights;
 }
 
