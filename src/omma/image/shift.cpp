@@ -23,8 +23,8 @@ FloatImage halved(const FloatImage& image) {
 
 constexpr int taps = 8;
 
-/// What lies `fraction` (0 to 1) behind the fourth of eight neighbours, by the polynomial through them all (Lagrange). It
-/// moves smooth structure by just as much as it is asked to, and fine structure nearly so, which a cubic does not.
+/// What lies `fraction` (0 to 1) behind the fourth of eight neighbours, by the polynomial through them all (Lagrange).
+/// It moves smooth structure by just as much as it is asked to, and fine structure nearly so, which a cubic does not.
 std::array<float, taps> weights_of(double fraction) {
   std::array<float, taps> weights{};
   const double place = fraction + taps / 2 - 1;
