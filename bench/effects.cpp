@@ -1,6 +1,6 @@
 #include "bench/effects.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <optional>
 

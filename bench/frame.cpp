@@ -1,6 +1,6 @@
 #include "bench/frame.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace omma::bench {
 

@@ -1,6 +1,6 @@
 #include "bench/image_based.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

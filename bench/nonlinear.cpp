@@ -1,6 +1,6 @@
 #include "bench/nonlinear.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,6 +1,6 @@
 #include "bench/subdivision.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "bench/frame.h"
 #include "omma/image/compare.h"

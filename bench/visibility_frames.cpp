@@ -1,6 +1,6 @@
 #include "bench/visibility_frames.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <chrono>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "bench/visibility_gpu.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <chrono>
 #include <optional>

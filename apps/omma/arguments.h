@@ -8,11 +8,9 @@
 
 #include "omma/math/ray.h"
 #include "omma/technique/picture.h"
+#include "program.h"
 
 namespace omma::tool {
-
-/// An option's value as it was typed; empty when it was not given.
-using Text = std::optional<std::string>;
 
 /// Each throws CommandError naming `option` and what is accepted.
 double number_of(std::string_view option, const std::string& text, double min, double max);

@@ -1,83 +1,46 @@
-// omma bench: the tables of docs/benchmarks.md and docs/results/.
-#include "bench/bench.h"
-
-#include <fmt/format.h>
+// omma bench: runs omma-bench, which most who render never build.
+#include <unistd.h>
 
 #include <CLI/App.hpp>
-#include <memory>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
 
-#include "arguments.h"
 #include "commands.h"
 #include "omma/base/error.h"
-#include "omma/base/file.h"
-#include "omma/base/names.h"
-#include "omma/gl/context.h"
 
 namespace omma::tool {
 namespace {
 
-struct Options {
-  std::vector<std::string> names;
-  Text runs, json, scene;
-};
+constexpr const char* program = "omma-bench";
 
-void run(const Options& options) {
-  std::vector<std::string> known;
-  for (const bench::Benchmark& benchmark : bench::benchmarks()) known.push_back(benchmark.name);
-  for (const std::string& name : options.names) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw CommandError("{}", unknown_name("benchmark", name, known));
-    }
-  }
-  bench::Options bench_options;
-  if (options.runs) bench_options.runs = count_of("--runs", *options.runs, 1, 1000);
-  if (options.scene) {
-    const auto takes = [&](const bench::Benchmark& benchmark) {
-      return benchmark.takes_scene && (options.names.empty() || std::find(options.names.begin(), options.names.end(),
-                                                                          benchmark.name) != options.names.end());
-    };
-    if (std::none_of(bench::benchmarks().begin(), bench::benchmarks().end(), takes)) {
-      throw CommandError("--scene is for the benchmark visibility, which is not among those asked for");
-    }
-    bench_options.scene = *options.scene;
-  }
-  if (options.json) require_writable(*options.json);
-
-  {
-    const gl::Context context;
-    fmt::print("{}, OpenGL {}\n", context.renderer(), context.version());
-  }
-  nlohmann::json results;
-  for (const bench::Benchmark& benchmark : bench::benchmarks()) {
-    const bool wanted = options.names.empty() ||
-                        std::find(options.names.begin(), options.names.end(), benchmark.name) != options.names.end();
-    if (!wanted) continue;
-    fmt::print("\n## {}: {}\n\n", benchmark.name, benchmark.description);
-    results[benchmark.name] = benchmark.run(bench_options);
-  }
-  if (options.json) write_text(*options.json, results.dump(2) + "\n");
+/// Becomes the program: the one beside this, else one in the PATH.
+[[noreturn]] void become_bench(std::vector<std::string> words) {
+  words.insert(words.begin(), program);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  std::error_code error;
+  const std::filesystem::path beside = std::filesystem::read_symlink("/proc/self/exe", error).replace_filename(program);
+  if (!error) ::execv(beside.c_str(), pointers.data());
+  if (error || errno == ENOENT) ::execvp(program, pointers.data());
+  if (errno != ENOENT) throw MachineError("{} cannot be run: {}", program, std::strerror(errno));
+  throw MachineError(
+      "{0}, a program of its own that measures and prints the tables of docs/benchmarks.md, is neither beside omma nor "
+      "in "
+      "the PATH; from a checkout './dev bench' builds and runs it, elsewhere 'cmake --build BUILD --target omma_bench' "
+      "builds it",
+      program);
 }
 
 }  // namespace
 
 void add_bench(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
-  CLI::App* command = tool.add_subcommand("bench", "Measures; prints tables of medians and ratios to a baseline");
-  std::string names;
-  for (const bench::Benchmark& benchmark : bench::benchmarks()) {
-    names += fmt::format("  {:<14}{}\n", benchmark.name, benchmark.description);
-  }
-  command->add_option("NAME", options->names, "Which benchmarks; all without a name");
-  command->add_option("--runs", options->runs, "How often each configuration is measured (default 9)");
-  command->add_option("--scene", options->scene, "visibility: one more scene, a built-in or a file, for whole frames");
-  command->add_option("--json", options->json, "Writes the same numbers to this file");
-  command->footer(
-      "Benchmarks:\n" + names +
-      "All configurations of a table are measured in turn, so that what disturbs the machine disturbs them\n"
-      "alike. A time is the median of its runs, with the 10th and 90th percentile behind it.\n"
-      "Example:\n"
-      "  omma bench image-based --runs 5 --json out.json");
-  command->callback([options] { run(*options); });
+  CLI::App* command = add_command(tool, "bench", "Measures; prints tables of medians and ratios to a baseline");
+  command->set_help_flag();  // every word is for the program
+  command->prefix_command();
+  command->callback([command] { become_bench(command->remaining()); });
 }
 
 }  // namespace omma::tool

@@ -2,7 +2,7 @@
 // model or in another program's file.
 #include "omma/camera/camera.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/App.hpp>
 #include <array>
@@ -218,52 +218,45 @@ void run(const Options& options) {
 }  // namespace
 
 void add_camera(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("camera", "Describe a camera; project and unproject points");
+  CLI::App* command = add_command(tool, "camera", "Describe a camera; project and unproject points");
   auto options = std::make_shared<Options>();
-  command
-      ->add_option("camera", options->camera,
-                   "A lens with its parameters (see 'omma cameras'), a .npy ray map, a calibration file, FILE or "
-                   "FILE#CAMERA, or a .json file of pieces")
+  add_option(*command, "camera", options->camera,
+             "A lens with its parameters (see 'omma cameras'), a .npy ray map, a calibration file, FILE or "
+             "FILE#CAMERA, or a .json file of pieces")
       ->type_name("CAMERA")
       ->required();
-  command->add_option("--size", options->size, "Pixels, default 1600x1200 or the camera's own")->type_name("WxH");
-  command
-      ->add_option("--project", options->project,
-                   "Where this direction lands in the image (camera frame: +X right, +Y up, looks along -Z)")
+  add_option(*command, "--size", options->size, "Pixels, default 1600x1200 or the camera's own")->type_name("WxH");
+  add_option(*command, "--project", options->project,
+             "Where this direction lands in the image (camera frame: +X right, +Y up, looks along -Z)")
       ->type_name("X,Y,Z")
       ->allow_extra_args(false);
-  command
-      ->add_option("--unproject", options->unproject,
-                   "Which way this point of the image looks (pixels from the top left corner, y down; the first "
-                   "pixel's centre is 0.5,0.5)")
+  add_option(*command, "--unproject", options->unproject,
+             "Which way this point of the image looks (pixels from the top left corner, y down; the first "
+             "pixel's centre is 0.5,0.5)")
       ->type_name("U,V")
       ->allow_extra_args(false);
-  command->add_option("--rays", options->rays, "Write the direction of every pixel, H x W x 3 float32: a ray map")
+  add_option(*command, "--rays", options->rays, "Write the direction of every pixel, H x W x 3 float32: a ray map")
       ->type_name("FILE.npy");
-  command
-      ->add_option("--pieces", options->pieces,
-                   "Write the perspective pieces that stand for the camera, which are a camera themselves, and say how "
-                   "far they are off")
+  add_option(*command, "--pieces", options->pieces,
+             "Write the perspective pieces that stand for the camera, which are a camera themselves, and say how "
+             "far they are off")
       ->type_name("FILE.json");
-  command
-      ->add_option("--tolerance", options->tolerance,
-                   "As few pieces as show everything this close to where the camera does, pixels, 0.01 to 100, default "
-                   "0.25")
+  add_option(*command, "--tolerance", options->tolerance,
+             "As few pieces as show everything this close to where the camera does, pixels, 0.01 to 100, default "
+             "0.25")
       ->type_name("PX");
-  command->add_option("--count", options->count, "About so many pieces of equal size instead, whatever the error")
+  add_option(*command, "--count", options->count, "About so many pieces of equal size instead, whatever the error")
       ->type_name("N");
-  command
-      ->add_option("--model", options->model,
-                   "Fit this model to the camera, with all of its parameters or those named, and say how far its "
-                   "pixels are off")
+  add_option(*command, "--model", options->model,
+             "Fit this model to the camera, with all of its parameters or those named, and say how far its "
+             "pixels are off")
       ->type_name("MODEL[:PARAMETER,...]");
-  command->add_option("-o,--output", options->output, "Write the camera as a calibration file")->type_name("FILE");
-  command
-      ->add_option("--format", options->format,
-                   "The file's format where its extension leaves a choice: opencv, ros, kalibr, basalt, colmap, "
-                   "nerfstudio")
+  add_option(*command, "-o,--output", options->output, "Write the camera as a calibration file")->type_name("FILE");
+  add_option(*command, "--format", options->format,
+             "The file's format where its extension leaves a choice: opencv, ros, kalibr, basalt, colmap, "
+             "nerfstudio")
       ->type_name("FORMAT");
-  command->add_flag("--json", options->json, "Print JSON");
+  add_flag(*command, "--json", options->json, "Print JSON");
   command->footer(
       "Examples:\n"
       "  omma camera equidistant:fov_deg=180 --size 1024x1024\n"

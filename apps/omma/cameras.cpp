@@ -1,5 +1,5 @@
 // omma cameras: every lens with its formula and parameters.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/App.hpp>
 #include <memory>
@@ -24,11 +24,11 @@ std::string deformation_text() {
 }  // namespace
 
 void add_cameras(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("cameras", "List the lenses and their parameters");
+  CLI::App* command = add_command(tool, "cameras", "List the lenses and their parameters");
   auto markdown = std::make_shared<bool>(false);
   auto examples = std::make_shared<bool>(false);
-  command->add_flag("--markdown", *markdown, "Print the tables of docs/cameras.md");
-  command->add_flag("--examples", *examples, "Print NAME CAMERA for each lens: its example")->excludes("--markdown");
+  add_flag(*command, "--markdown", *markdown, "Print the tables of docs/cameras.md");
+  add_flag(*command, "--examples", *examples, "Print NAME CAMERA for each lens: its example")->excludes("--markdown");
   command->footer(
       "A camera is written NAME:KEY=VALUE,KEY=VALUE or is the name of a ray map, a .npy file with H x W x 3 "
       "directions.\n"

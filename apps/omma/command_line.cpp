@@ -44,7 +44,12 @@ const CLI::App& require_subcommand(const CLI::App& tool, const std::string& word
 std::vector<std::string> checked_arguments(const CLI::App& tool, const std::vector<std::string>& words) {
   std::vector<std::string> arguments;
   const CLI::App* command = &tool;
+  const bool has_subcommands = !tool.get_subcommands(nullptr).empty();
   for (const std::string& word : words) {
+    if (command->get_prefix_command()) {  // these are another program's
+      arguments.push_back(word);
+      continue;
+    }
     if (is_negative_number(word)) {
       // A long option takes its value after '=', a short one right behind its letter.
       if (!arguments.empty() && is_option(arguments.back()) && arguments.back().find('=') == std::string::npos) {
@@ -53,7 +58,7 @@ std::vector<std::string> checked_arguments(const CLI::App& tool, const std::vect
       }
     } else if (is_option(word)) {
       require_option(*command, word);
-    } else if (command == &tool) {
+    } else if (command == &tool && has_subcommands) {
       command = &require_subcommand(tool, word);
     }
     arguments.push_back(word);

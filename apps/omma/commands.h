@@ -4,12 +4,9 @@
 
 #include <CLI/App.hpp>
 
-namespace omma::tool {
+#include "program.h"
 
-/// Ends the tool with this code, everything worth saying having been said.
-struct ExitCode {
-  int code;
-};
+namespace omma::tool {
 
 void add_render(CLI::App& tool);
 void add_probe(CLI::App& tool);

@@ -186,19 +186,18 @@ void run(const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("compare", "Measure how far apart two images are");
+  CLI::App* command = add_command(tool, "compare", "Measure how far apart two images are");
   auto options = std::make_shared<Options>();
-  command->add_option("a", options->a, "The first image, the reference")->type_name("A")->required();
-  command->add_option("b", options->b, "The second image")->type_name("B")->required();
-  command
-      ->add_option("--metric", options->metric,
-                   "Some of psnr,ssim,max,mean,id,shift; default: all that apply but shift")
+  add_option(*command, "a", options->a, "The first image, the reference")->type_name("A")->required();
+  add_option(*command, "b", options->b, "The second image")->type_name("B")->required();
+  add_option(*command, "--metric", options->metric,
+             "Some of psnr,ssim,max,mean,id,shift; default: all that apply but shift")
       ->type_name("NAMES");
-  command->add_flag("--json", options->json, "Print JSON");
-  command->add_flag("--raw", options->raw, "Compare 8-bit colour in linear light, not as a screen shows it");
-  command->add_option("--diff", options->diff, "Write |A - B|, its largest value white")->type_name("FILE");
+  add_flag(*command, "--json", options->json, "Print JSON");
+  add_flag(*command, "--raw", options->raw, "Compare 8-bit colour in linear light, not as a screen shows it");
+  add_option(*command, "--diff", options->diff, "Write |A - B|, its largest value white")->type_name("FILE");
   for (size_t i = 0; i < metric_count; ++i) {
-    command->add_option(metrics[i].limit_option, options->limits[i], metrics[i].limit_description)
+    add_option(*command, metrics[i].limit_option, options->limits[i], metrics[i].limit_description)
         ->type_name("X")
         ->group("Limits (exit code 1 beyond them)");
   }

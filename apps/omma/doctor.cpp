@@ -1,7 +1,7 @@
 // omma doctor: what this machine can do, and why not more.
 #include <assimp/version.h>
 #include <embree3/rtcore_config.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <oneapi/tbb/version.h>
 #include <unistd.h>
 
@@ -125,7 +125,7 @@ void run() {
 }  // namespace
 
 void add_doctor(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("doctor", "Say what this machine can do, and why not more");
+  CLI::App* command = add_command(tool, "doctor", "Say what this machine can do, and why not more");
   command->footer(
       "Lists the OpenGL devices, the one that is taken and its limits, and draws a small picture with each technique.\n"
       "Exit code 4 when something does not work. The environment variable OMMA_GL_DEBUG=print shows what the driver\n"

@@ -1,7 +1,7 @@
 // omma effects: what can be painted on surfaces and drawn over them.
 #include "omma/shading/effects.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/App.hpp>
 #include <memory>
@@ -11,9 +11,9 @@
 namespace omma::tool {
 
 void add_effects(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("effects", "List the effects on surfaces and their parameters");
+  CLI::App* command = add_command(tool, "effects", "List the effects on surfaces and their parameters");
   auto markdown = std::make_shared<bool>(false);
-  command->add_flag("--markdown", *markdown, "Print the tables of docs/effects.md");
+  add_flag(*command, "--markdown", *markdown, "Print the tables of docs/effects.md");
   command->footer(
       "Written NAME or NAME:KEY=VALUE,KEY=VALUE; every technique draws them. Colours are names (black, white, grey, "
       "red,\n"

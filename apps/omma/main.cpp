@@ -1,50 +1,10 @@
 // omma: renders 3D scenes through any camera with one centre.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <exception>
-#include <new>
+#include <CLI/App.hpp>
 
-#include "command_line.h"
 #include "commands.h"
 #include "omma/base/error.h"
-
-namespace {
-
-int fail(int code, const std::string& message) {
-  fmt::print(stderr, "error: {}\n", message);
-  return code;
-}
-
-int run(CLI::App& tool, int argc, char** argv) {
-  constexpr int wrong_command = static_cast<int>(omma::ErrorKind::command);
-  constexpr int wrong_machine = static_cast<int>(omma::ErrorKind::machine);
-  if (argc < 2) {
-    fmt::print(stderr, "{}", tool.help());
-    return wrong_command;
-  }
-  try {
-    std::vector<std::string> arguments = omma::tool::checked_arguments(tool, {argv + 1, argv + argc});
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
-    tool.parse(arguments);
-    return 0;
-  } catch (const CLI::Success& success) {  // --help, --version
-    return tool.exit(success);
-  } catch (const CLI::ParseError& error) {
-    return fail(wrong_command, error.what());
-  } catch (const omma::tool::ExitCode& exit) {
-    return exit.code;
-  } catch (const omma::Error& error) {
-    return fail(error.exit_code(), error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(wrong_machine, "not enough memory; a smaller --size or scene needs less");
-  } catch (const std::exception& error) {
-    return fail(wrong_machine, error.what());
-  }
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App tool("Renders 3D scenes through any camera that has one centre: fisheyes, panoramas, calibrated lenses.",
@@ -69,5 +29,9 @@ int main(int argc, char** argv) {
   omma::tool::add_effects(tool);
   omma::tool::add_doctor(tool);
   omma::tool::add_bench(tool);
-  return run(tool, argc, argv);
+  if (argc < 2) {
+    fmt::print(stderr, "{}", tool.help());
+    return static_cast<int>(omma::ErrorKind::command);
+  }
+  return omma::tool::run_program(tool, argc, argv);
 }

@@ -298,22 +298,22 @@ std::string show_help() {
 }  // namespace
 
 void add_render(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("render", "Render a scene through a camera");
+  CLI::App* command = add_command(tool, "render", "Render a scene through a camera");
   auto options = std::make_shared<Options>();
-  command->add_option("scene", options->scene, "A file that assimp reads, or a built-in scene (see 'omma scenes')")
+  add_option(*command, "scene", options->scene, "A file that assimp reads, or a built-in scene (see 'omma scenes')")
       ->type_name("SCENE")
       ->required();
-  command->add_option("--camera", options->camera, "A lens with its parameters, or a .npy ray map (see 'omma cameras')")
+  add_option(*command, "--camera", options->camera,
+             "A lens with its parameters, or a .npy ray map (see 'omma cameras')")
       ->type_name("CAMERA")
       ->required();
-  command
-      ->add_option("-o,--output", options->outputs,
-                   "File to write: .png .jpg .exr .pfm .npy; may be given several times, each with its channel")
+  add_option(*command, "-o,--output", options->outputs,
+             "File to write: .png .jpg .exr .pfm .npy; may be given several times, each with its channel")
       ->type_name("FILE[:CHANNEL]")
       ->allow_extra_args(false)
       ->required();
   const auto add = [&](const char* group, const char* name, const char* type, auto& value, const char* description) {
-    command->add_option(name, value, description)->type_name(type)->group(group);
+    add_option(*command, name, value, description)->type_name(type)->group(group);
   };
   const char* picture = "Picture";
   add(picture, "--technique", "T[:VARIANT]", options->technique, "How to draw, default auto (see 'omma techniques')");
@@ -328,11 +328,11 @@ void add_render(CLI::App& tool) {
       "The object, by its node's name or its number, whose surfaces show what surrounds it");
   add(picture, "--reflection-size", "N", options->reflection_size,
       "Texels along each of the two maps of what surrounds it, default 512");
-  command->add_option("--effect", options->effects, effect_help())
+  add_option(*command, "--effect", options->effects, effect_help())
       ->type_name("EFFECT[:KEY=VALUE,…]")
       ->allow_extra_args(false)
       ->group(picture);
-  command->add_option("--show", options->show, show_help())
+  add_option(*command, "--show", options->show, show_help())
       ->type_name("WHAT[,WHAT]")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -355,7 +355,7 @@ void add_render(CLI::App& tool) {
   add(time, "--animation", "NAME", options->view.animation, "Which of the scene's animations, default the first");
   add(time, "--frames", "N", options->view.frames, "Render N pictures over time, from --time on");
   add(time, "--fps", "F", options->view.fps, "Pictures a second of animation, default 30");
-  command->add_flag("--overwrite", options->overwrite, "Render the frames of a sequence that are there already, too")
+  add_flag(*command, "--overwrite", options->overwrite, "Render the frames of a sequence that are there already, too")
       ->group(time);
   add("Report", "--stats", "FILE", options->stats, "Write times, triangles, bytes and techniques as JSON");
   command->footer(

@@ -1,5 +1,5 @@
 // omma scenes: the built-in scenes and their parameters.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/App.hpp>
 
@@ -9,7 +9,7 @@
 namespace omma::tool {
 
 void add_scenes(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("scenes", "List the built-in scenes and their parameters");
+  CLI::App* command = add_command(tool, "scenes", "List the built-in scenes and their parameters");
   command->footer(
       "A scene is written NAME:KEY=VALUE,KEY=VALUE or is the name of a file that assimp reads (glTF, OBJ, PLY, STL,\n"
       "Collada, FBX and more).\n"

@@ -1,5 +1,5 @@
 // omma techniques: the ways of drawing and their variants.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/App.hpp>
 
@@ -9,7 +9,7 @@
 namespace omma::tool {
 
 void add_techniques(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("techniques", "List the ways of drawing and their variants");
+  CLI::App* command = add_command(tool, "techniques", "List the ways of drawing and their variants");
   command->footer(
       "Written NAME or NAME:VARIANT; the first variant is the default. An exact technique draws what 'raycast' draws,\n"
       "but for rounding at edges.\n"

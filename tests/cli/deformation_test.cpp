@@ -1,5 +1,5 @@
 // Deformed cameras and 360 degree metadata through the tool.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

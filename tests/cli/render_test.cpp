@@ -1,5 +1,5 @@
 // omma render: one picture, its channels, its statistics, its view.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // Sequences: numbered files, and a run that was cut off goes on with the first missing frame.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
 

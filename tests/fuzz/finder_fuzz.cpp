@@ -2,7 +2,7 @@
 // where a GL context is at hand, the GPU. On a grid, where products are exact, every ray's triangle is the one that
 // brute force in double precision says, but for rays 1e-3 px from an edge and depth ties; with coordinates of any bits
 // whatever is found exists.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <bit>

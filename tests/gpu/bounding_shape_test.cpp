@@ -1,5 +1,5 @@
 // Bounding shapes in GLSL, as technique nonlinear runs them, enclose what those in C++ are shown to enclose.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <iostream>
 

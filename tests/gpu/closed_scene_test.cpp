@@ -1,5 +1,5 @@
 // In a closed room every pixel that has a ray meets something, wherever the camera stands, and no other pixel does.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdlib>
 #include <random>

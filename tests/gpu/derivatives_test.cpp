@@ -1,6 +1,6 @@
 // How textures change from pixel to pixel of a triangle, as fragments compute it, against central differences in double
 // precision.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

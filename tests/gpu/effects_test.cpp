@@ -1,5 +1,5 @@
 // Effects: the same under every technique, of the width and spacing asked for, sound at poles and seams.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <numeric>

@@ -1,6 +1,6 @@
 // All finders, in every scene, through every camera, from random places: the processor's on each SIMD target, the
 // GPU's, and Embree. Where two differ, brute force in double precision says whether a ray beside an edge is to blame.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <glm/gtc/quaternion.hpp>

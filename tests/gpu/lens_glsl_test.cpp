@@ -1,5 +1,5 @@
 // Each lens in GLSL, as every technique runs it, against the same lens in C++ in double precision.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

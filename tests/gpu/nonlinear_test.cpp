@@ -1,5 +1,5 @@
 // Non-linear rasterization of what is hard to bound: triangles around the camera, huge, tiny, without area.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "omma/base/error.h"
 #include "omma/math/pose.h"

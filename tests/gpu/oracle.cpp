@@ -1,6 +1,6 @@
 #include "tests/gpu/oracle.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What holds for a picture as a whole: tiles, samples, filters, face sizes, poses far away, motion.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <filesystem>

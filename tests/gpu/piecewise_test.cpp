@@ -1,6 +1,6 @@
 // Pieces: the four variants draw the same picture, that of the camera made of the pieces; no sample belongs to two
 // pieces or to none.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,5 +1,5 @@
 // What points see of their hemispheres, against closed forms and against rays that Embree traces.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>

@@ -1,5 +1,5 @@
 // `raycast` against a loop over all triangles in double precision, every channel, through every camera.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,5 +1,5 @@
 // An object that shows what surrounds it, against rays that Embree traces from its middle and from its surface.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Reflections that the processor draws alone against those that OpenGL draws of the same visible triangles.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "omma/scene/object.h"
 #include "tests/gpu/gpu_test.h"

@@ -1,7 +1,7 @@
 // Several samples of a pixel, found one by one and shaded once for each triangle, against as many pictures of one
 // sample each. A scene with a blended material is drawn the latter way: hidden beneath the scene, one makes the
 // difference.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <random>
 

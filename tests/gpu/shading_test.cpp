@@ -1,5 +1,5 @@
 // Colours that can be worked out by hand, in every technique: materials, lights, coverage.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>

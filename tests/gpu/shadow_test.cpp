@@ -1,5 +1,5 @@
 // Shadows by maps of what a light sees, against rays from the light: Embree says which point each light reaches.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,6 +1,6 @@
 // Adaptive subdivision: within its tolerance of what rays see, and closed, where a triangle fills the view, holds a
 // pole or lies across a seam, too.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>

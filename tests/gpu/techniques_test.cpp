@@ -1,5 +1,5 @@
 // Every technique in every variant against `raycast`: equal where it says it is exact, and how far off where not.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>

@@ -1,5 +1,5 @@
 // What the processor draws alone against what OpenGL draws of the same visible triangles.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 

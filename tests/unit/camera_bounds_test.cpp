@@ -1,5 +1,5 @@
 // Bounding shapes enclose what they say they enclose: random triangles, their images sampled densely.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <iostream>
 #include <map>

@@ -1,5 +1,5 @@
 // Calibrated lenses: their names in other tools, where they end, and that no parameters lead them astray.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Panoramas and layouts against ffmpeg's v360 filter: a picture whose colours are directions, remapped by ffmpeg, has
 // to hold Omma's rays. Skipped where the `ffmpeg` program is not installed.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // Values of every radial and calibrated lens worked out by hand, or in 40 digits from the published formula (where a
 // formula gives the angle, its root).
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <array>

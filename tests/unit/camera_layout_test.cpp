@@ -1,5 +1,5 @@
 // Layouts: where the parts of the world lie, and that all of it is there.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

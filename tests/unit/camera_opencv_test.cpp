@@ -1,5 +1,5 @@
 // opencv_fisheye against OpenCV's own fisheye functions, for made-up and for real calibrations.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Panoramas: values worked out from the published formulae, and what each projection preserves.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <array>

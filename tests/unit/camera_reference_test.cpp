@@ -1,6 +1,6 @@
 // Calibrated lenses against OpenCV's projectPoints and omnidir, and real calibrations against each other and against
 // what their files say besides.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Cameras of every lens in lens_models(), for tests that hold for all of them.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // Colour that the processor draws: samples, threads, SIMD targets, textures. How it looks is compared with OpenGL's in
 // tests/gpu/without_gl_test.cpp.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

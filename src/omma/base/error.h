@@ -4,11 +4,10 @@
 // code of the tool: the command was wrong, the input was wrong, or this machine cannot do it.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace omma {
 
@@ -17,6 +16,7 @@ enum class ErrorKind { command = 2, input = 3, machine = 4 };
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  Error(ErrorKind kind, fmt::string_view format, fmt::format_args values);
   ErrorKind kind() const { return kind_; }
   int exit_code() const { return static_cast<int>(kind_); }
 
@@ -28,21 +28,21 @@ class Error : public std::runtime_error {
 struct CommandError : Error {
   template <typename... Args>
   explicit CommandError(fmt::format_string<Args...> format, Args&&... args)
-      : Error(ErrorKind::command, fmt::format(format, std::forward<Args>(args)...)) {}
+      : Error(ErrorKind::command, format, fmt::make_format_args(args...)) {}
 };
 
 /// A file holds something that cannot be used.
 struct InputError : Error {
   template <typename... Args>
   explicit InputError(fmt::format_string<Args...> format, Args&&... args)
-      : Error(ErrorKind::input, fmt::format(format, std::forward<Args>(args)...)) {}
+      : Error(ErrorKind::input, format, fmt::make_format_args(args...)) {}
 };
 
 /// The request is sound, but this machine lacks something for it: a driver, a feature, memory, disk space.
 struct MachineError : Error {
   template <typename... Args>
   explicit MachineError(fmt::format_string<Args...> format, Args&&... args)
-      : Error(ErrorKind::machine, fmt::format(format, std::forward<Args>(args)...)) {}
+      : Error(ErrorKind::machine, format, fmt::make_format_args(args...)) {}
 };
 
 /// Says something on standard error without stopping: a texture that is missing, vertices that were dropped.

@@ -1,5 +1,7 @@
 #include "omma/base/names.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>

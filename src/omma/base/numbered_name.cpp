@@ -1,6 +1,6 @@
 #include "omma/base/numbered_name.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #include "omma/camera/lens_table.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cctype>
 

@@ -1,4 +1,6 @@
 // Cameras that are measured: a direction for each pixel.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "omma/image/metadata.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>

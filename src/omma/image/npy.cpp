@@ -1,5 +1,7 @@
 #include "omma/image/npy.h"
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
 #include <cstring>

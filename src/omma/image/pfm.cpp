@@ -1,6 +1,6 @@
 #include "omma/image/pfm.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <bit>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "omma/shading/shadow_layers.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "omma/software/shade_fragments.cpp"
-#define HWY_COMPILE_ALL_ATTAINABLE
-#include <hwy/foreach_target.h>
-// Highway wants its own headers after foreach_target.h.
-#include <hwy/highway.h>
-
-#include "omma/software/shade_block-inl.h"
 #include "omma/software/shade_fragments.h"
 
-#if HWY_ONCE
+#include "simd_targets.h"
+
 namespace omma {
+
+#define OMMA_DECLARE(name)                         \
+  namespace name {                                 \
+  decltype(omma::shade_fragments) shade_fragments; \
+  }
+OMMA_SIMD_TARGETS(OMMA_DECLARE)
+#undef OMMA_DECLARE
 
 HWY_EXPORT(shade_fragments);
 
@@ -19,4 +19,3 @@ void shade_fragments(const ShadedScene& scene, const RayBlock& block, const Squa
 }
 
 }  // namespace omma
-#endif

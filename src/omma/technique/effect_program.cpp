@@ -1,6 +1,6 @@
 #include "omma/technique/effect_program.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cctype>
 

@@ -1,18 +1,10 @@
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "omma/visibility/find_blocks.cpp"
-#define HWY_COMPILE_ALL_ATTAINABLE
-#include <hwy/foreach_target.h>
-// Highway wants its own headers after foreach_target.h.
-#include <hwy/highway.h>
-
-#include "omma/visibility/find_block-inl.h"
 #include "omma/visibility/find_blocks.h"
 
-#if HWY_ONCE
 #include <algorithm>
 
 #include "omma/base/error.h"
 #include "omma/base/names.h"
+#include "simd_targets.h"
 
 namespace omma {
 namespace {
@@ -26,6 +18,13 @@ std::vector<std::pair<std::string, int64_t>> targets_at_hand() {
 }
 
 }  // namespace
+
+#define OMMA_DECLARE(name)                 \
+  namespace name {                         \
+  decltype(omma::find_blocks) find_blocks; \
+  }
+OMMA_SIMD_TARGETS(OMMA_DECLARE)
+#undef OMMA_DECLARE
 
 HWY_EXPORT(find_blocks);
 
@@ -51,4 +50,3 @@ void use_simd_target(const std::string& name) {
 }
 
 }  // namespace omma
-#endif

@@ -1,4 +1,6 @@
 // Cameras of typed formulae, so that a new projection needs no compiler.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -6,6 +8,7 @@
 
 #include "omma/base/error.h"
 #include "omma/base/file.h"
+
 #include "omma/camera/camera_parameters.h"
 #include "omma/camera/deformation/deformation.h"
 #include "omma/camera/deformation/expression.h"

@@ -2,6 +2,8 @@
 //
 // The top left corner is (0, 0), as in Omma; x right, y down, z forward. Each model has its own order of parameters,
 // below; simple models have one focal length. FOV's omega is in radians.
+#include <fmt/format.h>
+
 #include "omma/camera/files/calibration.h"
 #include "omma/camera/files/format.h"
 

@@ -16,7 +16,7 @@ namespace {
 constexpr size_t max_bytes = size_t{64} << 20;
 
 // What a message quotes of a file's content.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr size_t longest = 40;
   std::string shown;
   for (const char c : text.substr(0, longest)) shown += static_cast<unsigned char>(c) < 32 ? ' ' : c;
@@ -98,16 +98,16 @@ double number_at(const Place& place, std::string_view text) {
   if (digits.starts_with('+')) digits.remove_prefix(1);
   double number = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error == std::errc::result_out_of_range) place.fail("{} is too large or too small for a number", quoted(text));
-  if (error != std::errc() || end != digits.data() + digits.size()) place.fail("{} is not a number", quoted(text));
-  if (!std::isfinite(number)) place.fail("{} is not a finite number", quoted(text));
+  if (error == std::errc::result_out_of_range) place.fail("{} is too large or too small for a number", in_quotes(text));
+  if (error != std::errc() || end != digits.data() + digits.size()) place.fail("{} is not a number", in_quotes(text));
+  if (!std::isfinite(number)) place.fail("{} is not a finite number", in_quotes(text));
   return number;
 }
 
 long integer_at(const Place& place, std::string_view text) {
   const double number = number_at(place, text);
   if (number != std::floor(number) || std::abs(number) > 2147483647.0) {
-    place.fail("{} is not a whole number within 32 bits", quoted(text));
+    place.fail("{} is not a whole number within 32 bits", in_quotes(text));
   }
   return static_cast<long>(number);
 }
@@ -131,12 +131,12 @@ std::optional<DocumentNode> DocumentNode::find_any(std::initializer_list<const c
 }
 
 DocumentNode DocumentNode::at(std::string_view key) const {
-  if (!is_map()) fail("a map with {} is expected", quoted(key));
+  if (!is_map()) fail("a map with {} is expected", in_quotes(key));
   if (std::optional<DocumentNode> found = find(key)) return *found;
   std::vector<std::string> names;
   for (const auto& [name, value] : value_->members) names.push_back(name);
   const std::optional<std::string> nearest = nearest_name(key, names);
-  fail("{} is missing{}", quoted(key), nearest ? fmt::format("; there is {}", quoted(*nearest)) : "");
+  fail("{} is missing{}", in_quotes(key), nearest ? fmt::format("; there is {}", in_quotes(*nearest)) : "");
 }
 
 std::vector<DocumentNode> DocumentNode::items() const {
@@ -157,7 +157,7 @@ std::vector<std::pair<std::string, DocumentNode>> DocumentNode::members() const 
 
 double DocumentNode::number() const {
   if (value_->kind != Value::Kind::scalar) fail("a number is expected");
-  if (value_->quoted) fail("a number is expected, and {} is text in quotes", quoted(value_->text));
+  if (value_->quoted) fail("a number is expected, and {} is text in quotes", in_quotes(value_->text));
   return number_at(place(), value_->text);
 }
 
@@ -170,7 +170,7 @@ bool DocumentNode::boolean() const {
   const std::string text = this->text();
   if (text == "true" || text == "1") return true;
   if (text == "false" || text == "0") return false;
-  fail("{} is neither true nor false", quoted(text));
+  fail("{} is neither true nor false", in_quotes(text));
 }
 
 std::string DocumentNode::text() const {

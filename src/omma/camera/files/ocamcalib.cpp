@@ -3,6 +3,8 @@
 //
 // Row before column everywhere, the centre of the first pixel at (0, 0). Coefficients a0 a1 … are of the radius in
 // pixels, lowest first, a0 negative; at most seven.
+#include <fmt/format.h>
+
 #include <array>
 
 #include "omma/camera/files/calibration.h"

@@ -3,6 +3,8 @@
 //
 // The centre of the first pixel is (0, 0); x right, y down, z forward. plumb_bob: k1 k2 p1 p2 k3; rational_polynomial:
 // and k4 k5 k6; equidistant: k1 k2 k3 k4 of OpenCV's fisheye.
+#include <fmt/format.h>
+
 #include <array>
 
 #include "omma/camera/files/calibration.h"

@@ -1,7 +1,7 @@
 // The plan of the city: streets, crossings, blocks.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "omma/scene/builtin/builtin.h"
 #include "omma/scene/builtin/city.h"

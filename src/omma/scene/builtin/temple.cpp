@@ -1,7 +1,7 @@
 // A Doric temple, 6 by 11 columns, after the proportions of the Parthenon's fronts.
 #include <cmath>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "omma/scene/builtin/builtin.h"
 #include "omma/scene/builtin/mesh_builder.h"

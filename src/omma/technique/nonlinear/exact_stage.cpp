@@ -1,6 +1,6 @@
 #include "omma/technique/nonlinear/exact_stage.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "omma/technique/sample_places.h"
 

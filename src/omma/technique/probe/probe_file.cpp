@@ -1,6 +1,6 @@
 #include "omma/technique/probe/probe_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "omma/technique/subdivision/lens_field.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

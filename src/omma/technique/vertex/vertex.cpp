@@ -1,6 +1,6 @@
 #include "omma/technique/vertex/vertex.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "omma/technique/mesh_pass.h"
 
