@@ -1,11 +1,10 @@
 // omma-bench, which omma bench runs: the tables of docs/benchmarks.md.
 #include <fmt/core.h>
 
-#include <CLI/App.hpp>
 #include <algorithm>
 
 #include "apps/omma/arguments.h"
-#include "apps/omma/program.h"
+#include "apps/omma/command_line.h"
 #include "bench/bench.h"
 #include "omma/base/error.h"
 #include "omma/base/file.h"
@@ -66,21 +65,20 @@ void measure(const Words& words) {
 
 int main(int argc, char** argv) {
   omma::bench::Words words;
-  CLI::App program("Measures; prints tables of medians and ratios to a baseline", "omma bench");
+  omma::tool::Program program("omma bench", "Measures; prints tables of medians and ratios to a baseline");
   std::string names;
   for (const omma::bench::Benchmark& benchmark : omma::bench::benchmarks()) {
     names += fmt::format("  {:<14}{}\n", benchmark.name, benchmark.description);
   }
-  omma::tool::add_option(program, "NAME", words.names, "Which benchmarks; all without a name");
-  omma::tool::add_option(program, "--runs", words.runs, "How often each configuration is measured (default 9)");
-  omma::tool::add_option(program, "--scene", words.scene,
-                         "visibility: one more scene, a built-in or a file, for whole frames");
-  omma::tool::add_option(program, "--json", words.json, "Writes the same numbers to this file");
+  program.add_option("NAME", words.names, "Which benchmarks; all without a name");
+  program.add_option("--runs", words.runs, "How often each configuration is measured (default 9)");
+  program.add_option("--scene", words.scene, "visibility: one more scene, a built-in or a file, for whole frames");
+  program.add_option("--json", words.json, "Writes the same numbers to this file");
   program.footer("Benchmarks:\n" + names +
                  "All configurations of a table are measured in turn, so that what disturbs the machine disturbs them\n"
                  "alike. A time is the median of its runs, with the 10th and 90th percentile behind it.\n"
                  "Example:\n"
                  "  omma bench image-based --runs 5 --json out.json");
   program.callback([&words] { omma::bench::measure(words); });
-  return omma::tool::run_program(program, argc, argv);
+  return program.run(argc, argv);
 }

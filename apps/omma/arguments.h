@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "command_line.h"
 #include "omma/math/ray.h"
 #include "omma/technique/picture.h"
-#include "program.h"
 
 namespace omma::tool {
 

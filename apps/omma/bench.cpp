@@ -1,7 +1,6 @@
 // omma bench: runs omma-bench, which most who render never build.
 #include <unistd.h>
 
-#include <CLI/App.hpp>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -16,7 +15,7 @@ namespace {
 constexpr const char* program = "omma-bench";
 
 /// Becomes the program: the one beside this, else one in the PATH.
-[[noreturn]] void become_bench(std::vector<std::string> words) {
+void become_bench(std::vector<std::string> words) {
   words.insert(words.begin(), program);
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -28,7 +27,6 @@ constexpr const char* program = "omma-bench";
   if (errno != ENOENT) throw MachineError("{} cannot be run: {}", program, std::strerror(errno));
   throw MachineError(
       "{0}, a program of its own that measures and prints the tables of docs/benchmarks.md, is neither beside omma nor "
-      "in "
       "the PATH; from a checkout './dev bench' builds and runs it, elsewhere 'cmake --build BUILD --target omma_bench' "
       "builds it",
       program);
@@ -36,11 +34,9 @@ constexpr const char* program = "omma-bench";
 
 }  // namespace
 
-void add_bench(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "bench", "Measures; prints tables of medians and ratios to a baseline");
-  command->set_help_flag();  // every word is for the program
-  command->prefix_command();
-  command->callback([command] { become_bench(command->remaining()); });
+void add_bench(const Command& tool) {
+  const Command command = tool.add_command("bench", "Measures; prints tables of medians and ratios to a baseline");
+  command.pass_words_on(become_bench);
 }
 
 }  // namespace omma::tool

@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <CLI/App.hpp>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -131,7 +130,7 @@ std::string value_text(const Json& value) {
   if (value.is_number_float()) return fmt::format("{:.9g}", value.get<double>());
   if (!value.is_array()) return value.dump();
   std::string text;
-  for (const Json& element : value) text += (text.empty() ? "" : ",") + value_text(element);
+  for (const Json& element : value) text += fmt::format("{}{}", text.empty() ? "" : ",", value_text(element));
   return text;
 }
 
@@ -217,54 +216,61 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_camera(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "camera", "Describe a camera; project and unproject points");
+void add_camera(const Command& tool) {
+  const Command command = tool.add_command("camera", "Describe a camera; project and unproject points");
   auto options = std::make_shared<Options>();
-  add_option(*command, "camera", options->camera,
-             "A lens with its parameters (see 'omma cameras'), a .npy ray map, a calibration file, FILE or "
-             "FILE#CAMERA, or a .json file of pieces")
-      ->type_name("CAMERA")
-      ->required();
-  add_option(*command, "--size", options->size, "Pixels, default 1600x1200 or the camera's own")->type_name("WxH");
-  add_option(*command, "--project", options->project,
-             "Where this direction lands in the image (camera frame: +X right, +Y up, looks along -Z)")
-      ->type_name("X,Y,Z")
-      ->allow_extra_args(false);
-  add_option(*command, "--unproject", options->unproject,
-             "Which way this point of the image looks (pixels from the top left corner, y down; the first "
-             "pixel's centre is 0.5,0.5)")
-      ->type_name("U,V")
-      ->allow_extra_args(false);
-  add_option(*command, "--rays", options->rays, "Write the direction of every pixel, H x W x 3 float32: a ray map")
-      ->type_name("FILE.npy");
-  add_option(*command, "--pieces", options->pieces,
-             "Write the perspective pieces that stand for the camera, which are a camera themselves, and say how "
-             "far they are off")
-      ->type_name("FILE.json");
-  add_option(*command, "--tolerance", options->tolerance,
-             "As few pieces as show everything this close to where the camera does, pixels, 0.01 to 100, default "
-             "0.25")
-      ->type_name("PX");
-  add_option(*command, "--count", options->count, "About so many pieces of equal size instead, whatever the error")
-      ->type_name("N");
-  add_option(*command, "--model", options->model,
-             "Fit this model to the camera, with all of its parameters or those named, and say how far its "
-             "pixels are off")
-      ->type_name("MODEL[:PARAMETER,...]");
-  add_option(*command, "-o,--output", options->output, "Write the camera as a calibration file")->type_name("FILE");
-  add_option(*command, "--format", options->format,
-             "The file's format where its extension leaves a choice: opencv, ros, kalibr, basalt, colmap, "
-             "nerfstudio")
-      ->type_name("FORMAT");
-  add_flag(*command, "--json", options->json, "Print JSON");
-  command->footer(
+  command
+      .add_option("camera", options->camera,
+                  "A lens with its parameters (see 'omma cameras'), a .npy ray map, a calibration file, FILE or "
+                  "FILE#CAMERA, or a .json file of pieces")
+      .type_name("CAMERA")
+      .required();
+  command.add_option("--size", options->size, "Pixels, default 1600x1200 or the camera's own").type_name("WxH");
+  command
+      .add_option("--project", options->project,
+                  "Where this direction lands in the image (camera frame: +X right, +Y up, looks along -Z)")
+      .type_name("X,Y,Z")
+      .one_word();
+  command
+      .add_option("--unproject", options->unproject,
+                  "Which way this point of the image looks (pixels from the top left corner, y down; the first "
+                  "pixel's centre is 0.5,0.5)")
+      .type_name("U,V")
+      .one_word();
+  command.add_option("--rays", options->rays, "Write the direction of every pixel, H x W x 3 float32: a ray map")
+      .type_name("FILE.npy");
+  command
+      .add_option("--pieces", options->pieces,
+                  "Write the perspective pieces that stand for the camera, which are a camera themselves, and say how "
+                  "far they are off")
+      .type_name("FILE.json");
+  command
+      .add_option("--tolerance", options->tolerance,
+                  "As few pieces as show everything this close to where the camera does, pixels, 0.01 to 100, default "
+                  "0.25")
+      .type_name("PX");
+  command.add_option("--count", options->count, "About so many pieces of equal size instead, whatever the error")
+      .type_name("N");
+  command
+      .add_option("--model", options->model,
+                  "Fit this model to the camera, with all of its parameters or those named, and say how far its "
+                  "pixels are off")
+      .type_name("MODEL[:PARAMETER,...]");
+  command.add_option("-o,--output", options->output, "Write the camera as a calibration file").type_name("FILE");
+  command
+      .add_option("--format", options->format,
+                  "The file's format where its extension leaves a choice: opencv, ros, kalibr, basalt, colmap, "
+                  "nerfstudio")
+      .type_name("FORMAT");
+  command.add_flag("--json", options->json, "Print JSON");
+  command.footer(
       "Examples:\n"
       "  omma camera equidistant:fov_deg=180 --size 1024x1024\n"
       "  omma camera equisolid:fov_deg=220 --project 1,0,-1 --project -1,0,0.2\n"
       "  omma camera cylinder:fov_deg=360 --unproject 0,600 --rays rays.npy --json\n"
       "  omma camera equirectangular --pieces pieces.json --tolerance 0.1\n"
       "  omma camera camchain.yaml#cam1 --model double_sphere -o rig.yaml --format kalibr");
-  command->callback([options] { run(*options); });
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace omma::tool

@@ -1,7 +1,6 @@
 // omma cameras: every lens with its formula and parameters.
 #include <fmt/core.h>
 
-#include <CLI/App.hpp>
 #include <memory>
 
 #include "commands.h"
@@ -23,19 +22,19 @@ std::string deformation_text() {
 
 }  // namespace
 
-void add_cameras(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "cameras", "List the lenses and their parameters");
+void add_cameras(const Command& tool) {
+  const Command command = tool.add_command("cameras", "List the lenses and their parameters");
   auto markdown = std::make_shared<bool>(false);
   auto examples = std::make_shared<bool>(false);
-  add_flag(*command, "--markdown", *markdown, "Print the tables of docs/cameras.md");
-  add_flag(*command, "--examples", *examples, "Print NAME CAMERA for each lens: its example")->excludes("--markdown");
-  command->footer(
+  command.add_flag("--markdown", *markdown, "Print the tables of docs/cameras.md");
+  command.add_flag("--examples", *examples, "Print NAME CAMERA for each lens: its example").excludes("--markdown");
+  command.footer(
       "A camera is written NAME:KEY=VALUE,KEY=VALUE or is the name of a ray map, a .npy file with H x W x 3 "
       "directions.\n"
       "Examples:\n"
       "  omma cameras\n"
       "  omma camera equidistant:fov_deg=180,fit=diagonal    what one camera comes to");
-  command->callback([markdown, examples] {
+  command.callback([markdown, examples] {
     if (*examples) {
       for (const LensModel& model : lens_models()) fmt::print("{} {}\n", model.info.name, model.info.example);
       return;

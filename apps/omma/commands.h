@@ -2,21 +2,19 @@
 // code that is no error.
 #pragma once
 
-#include <CLI/App.hpp>
-
-#include "program.h"
+#include "command_line.h"
 
 namespace omma::tool {
 
-void add_render(CLI::App& tool);
-void add_probe(CLI::App& tool);
-void add_compare(CLI::App& tool);
-void add_camera(CLI::App& tool);
-void add_cameras(CLI::App& tool);
-void add_scenes(CLI::App& tool);
-void add_techniques(CLI::App& tool);
-void add_effects(CLI::App& tool);
-void add_doctor(CLI::App& tool);
-void add_bench(CLI::App& tool);
+void add_render(const Command& tool);
+void add_probe(const Command& tool);
+void add_compare(const Command& tool);
+void add_camera(const Command& tool);
+void add_cameras(const Command& tool);
+void add_scenes(const Command& tool);
+void add_techniques(const Command& tool);
+void add_effects(const Command& tool);
+void add_doctor(const Command& tool);
+void add_bench(const Command& tool);
 
 }  // namespace omma::tool

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -185,23 +184,23 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "compare", "Measure how far apart two images are");
+void add_compare(const Command& tool) {
+  const Command command = tool.add_command("compare", "Measure how far apart two images are");
   auto options = std::make_shared<Options>();
-  add_option(*command, "a", options->a, "The first image, the reference")->type_name("A")->required();
-  add_option(*command, "b", options->b, "The second image")->type_name("B")->required();
-  add_option(*command, "--metric", options->metric,
-             "Some of psnr,ssim,max,mean,id,shift; default: all that apply but shift")
-      ->type_name("NAMES");
-  add_flag(*command, "--json", options->json, "Print JSON");
-  add_flag(*command, "--raw", options->raw, "Compare 8-bit colour in linear light, not as a screen shows it");
-  add_option(*command, "--diff", options->diff, "Write |A - B|, its largest value white")->type_name("FILE");
+  command.add_option("a", options->a, "The first image, the reference").type_name("A").required();
+  command.add_option("b", options->b, "The second image").type_name("B").required();
+  command
+      .add_option("--metric", options->metric, "Some of psnr,ssim,max,mean,id,shift; default: all that apply but shift")
+      .type_name("NAMES");
+  command.add_flag("--json", options->json, "Print JSON");
+  command.add_flag("--raw", options->raw, "Compare 8-bit colour in linear light, not as a screen shows it");
+  command.add_option("--diff", options->diff, "Write |A - B|, its largest value white").type_name("FILE");
   for (size_t i = 0; i < metric_count; ++i) {
-    add_option(*command, metrics[i].limit_option, options->limits[i], metrics[i].limit_description)
-        ->type_name("X")
-        ->group("Limits (exit code 1 beyond them)");
+    command.add_option(metrics[i].limit_option, options->limits[i], metrics[i].limit_description)
+        .type_name("X")
+        .group("Limits (exit code 1 beyond them)");
   }
-  command->footer(
+  command.footer(
       "Colour from .png and .jpg is compared as a screen shows it: sRGB encoded, 0 to 1, so that one step of 8 bits\n"
       "is 0.0039. Everything else is compared in its own unit; the peak of psnr and ssim is then A's largest value.\n"
       "A pixel with a finite value in one image only counts for id, and makes max infinite.\n"
@@ -211,7 +210,7 @@ void add_compare(CLI::App& tool) {
       "  omma compare a.png b.png --metric shift --max-shift 0.01\n"
       "  omma compare a.png b.png --max-max 0.1 --max-mean 0.002 --diff difference.png\n"
       "  omma compare a.npy b.npy --metric id --max-id-share 0.001");
-  command->callback([options] { run(*options); });
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace omma::tool

@@ -5,7 +5,6 @@
 #include <oneapi/tbb/version.h>
 #include <unistd.h>
 
-#include <CLI/App.hpp>
 #include <chrono>
 #include <fstream>
 #include <string>
@@ -124,15 +123,15 @@ void run() {
 
 }  // namespace
 
-void add_doctor(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "doctor", "Say what this machine can do, and why not more");
-  command->footer(
+void add_doctor(const Command& tool) {
+  const Command command = tool.add_command("doctor", "Say what this machine can do, and why not more");
+  command.footer(
       "Lists the OpenGL devices, the one that is taken and its limits, and draws a small picture with each technique.\n"
       "Exit code 4 when something does not work. The environment variable OMMA_GL_DEBUG=print shows what the driver\n"
       "says.\n"
       "Example:\n"
       "  omma doctor");
-  command->callback(run);
+  command.callback(run);
 }
 
 }  // namespace omma::tool

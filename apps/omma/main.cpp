@@ -1,15 +1,10 @@
 // omma: renders 3D scenes through any camera with one centre.
-#include <fmt/core.h>
-
-#include <CLI/App.hpp>
-
 #include "commands.h"
-#include "omma/base/error.h"
 
 int main(int argc, char** argv) {
-  CLI::App tool("Renders 3D scenes through any camera that has one centre: fisheyes, panoramas, calibrated lenses.",
-                "omma");
-  tool.set_version_flag("--version", "omma " OMMA_VERSION);
+  omma::tool::Program tool(
+      "omma", "Renders 3D scenes through any camera that has one centre: fisheyes, panoramas, calibrated lenses.");
+  tool.set_version("omma " OMMA_VERSION);
   tool.footer(
       "Examples:\n"
       "  omma render city --camera equidistant:fov_deg=180 -o city.png\n"
@@ -18,7 +13,7 @@ int main(int argc, char** argv) {
       "'omma COMMAND --help' says more.\n"
       "Exit codes: 0 done, 1 a comparison failed, 2 the command is wrong, 3 the input is wrong,\n"
       "4 this machine cannot do it.");
-  tool.require_subcommand(1);
+  tool.require_command();
   omma::tool::add_render(tool);
   omma::tool::add_probe(tool);
   omma::tool::add_compare(tool);
@@ -29,9 +24,5 @@ int main(int argc, char** argv) {
   omma::tool::add_effects(tool);
   omma::tool::add_doctor(tool);
   omma::tool::add_bench(tool);
-  if (argc < 2) {
-    fmt::print(stderr, "{}", tool.help());
-    return static_cast<int>(omma::ErrorKind::command);
-  }
-  return omma::tool::run_program(tool, argc, argv);
+  return tool.run(argc, argv);
 }

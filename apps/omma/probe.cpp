@@ -1,7 +1,6 @@
 // omma probe: what points of a scene see of their hemispheres.
 #include <fmt/core.h>
 
-#include <CLI/App.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -123,14 +122,14 @@ void run(const ProbeCommand& command) {
 
 }  // namespace
 
-void add_probe(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "probe", "Ambient occlusion, sky and irradiance at points of a scene");
+void add_probe(const Command& tool) {
+  const Command command = tool.add_command("probe", "Ambient occlusion, sky and irradiance at points of a scene");
   auto options = std::make_shared<ProbeCommand>();
-  add_option(*command, "scene", options->scene, "A file that assimp reads, or a built-in scene (see 'omma scenes')")
-      ->type_name("SCENE")
-      ->required();
+  command.add_option("scene", options->scene, "A file that assimp reads, or a built-in scene (see 'omma scenes')")
+      .type_name("SCENE")
+      .required();
   const auto add = [&](const char* group, const char* name, const char* type, auto& value, const char* description) {
-    add_option(*command, name, value, description)->type_name(type)->group(group);
+    command.add_option(name, value, description).type_name(type).group(group);
   };
   const char* where = "Where (one of --at, --points, --vertices)";
   add(where, "--at", "X,Y,Z", options->at, "A point, world metres");
@@ -149,12 +148,12 @@ void add_probe(CLI::App& tool) {
   add(how, "--shadow-size", "N", options->shadow_size, "Texels along a shadow map, default 1024");
   const char* result = "Result";
   add(result, "-o,--output", "FILE", options->output, ".npy (columns: see docs/probes.md) or .ply");
-  add_flag(*command, "--json", options->json, "For --at: print JSON")->group(result);
-  command->footer(
+  command.add_flag("--json", options->json, "For --at: print JSON").group(result);
+  command.footer(
       "Examples:\n"
       "  omma probe temple --at 0,1.2,20 --normal 0,1,0\n"
       "  omma probe room --vertices pot --max-distance 1 -o pot.ply");
-  command->callback([options] { run(*options); });
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace omma::tool

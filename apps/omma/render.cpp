@@ -1,7 +1,6 @@
 // omma render: a scene through a camera into files.
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -297,23 +296,23 @@ std::string show_help() {
 
 }  // namespace
 
-void add_render(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "render", "Render a scene through a camera");
+void add_render(const Command& tool) {
+  const Command command = tool.add_command("render", "Render a scene through a camera");
   auto options = std::make_shared<Options>();
-  add_option(*command, "scene", options->scene, "A file that assimp reads, or a built-in scene (see 'omma scenes')")
-      ->type_name("SCENE")
-      ->required();
-  add_option(*command, "--camera", options->camera,
-             "A lens with its parameters, or a .npy ray map (see 'omma cameras')")
-      ->type_name("CAMERA")
-      ->required();
-  add_option(*command, "-o,--output", options->outputs,
-             "File to write: .png .jpg .exr .pfm .npy; may be given several times, each with its channel")
-      ->type_name("FILE[:CHANNEL]")
-      ->allow_extra_args(false)
-      ->required();
+  command.add_option("scene", options->scene, "A file that assimp reads, or a built-in scene (see 'omma scenes')")
+      .type_name("SCENE")
+      .required();
+  command.add_option("--camera", options->camera, "A lens with its parameters, or a .npy ray map (see 'omma cameras')")
+      .type_name("CAMERA")
+      .required();
+  command
+      .add_option("-o,--output", options->outputs,
+                  "File to write: .png .jpg .exr .pfm .npy; may be given several times, each with its channel")
+      .type_name("FILE[:CHANNEL]")
+      .one_word()
+      .required();
   const auto add = [&](const char* group, const char* name, const char* type, auto& value, const char* description) {
-    add_option(*command, name, value, description)->type_name(type)->group(group);
+    command.add_option(name, value, description).type_name(type).group(group);
   };
   const char* picture = "Picture";
   add(picture, "--technique", "T[:VARIANT]", options->technique, "How to draw, default auto (see 'omma techniques')");
@@ -328,15 +327,15 @@ void add_render(CLI::App& tool) {
       "The object, by its node's name or its number, whose surfaces show what surrounds it");
   add(picture, "--reflection-size", "N", options->reflection_size,
       "Texels along each of the two maps of what surrounds it, default 512");
-  add_option(*command, "--effect", options->effects, effect_help())
-      ->type_name("EFFECT[:KEY=VALUE,…]")
-      ->allow_extra_args(false)
-      ->group(picture);
-  add_option(*command, "--show", options->show, show_help())
-      ->type_name("WHAT[,WHAT]")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group(picture);
+  command.add_option("--effect", options->effects, effect_help())
+      .type_name("EFFECT[:KEY=VALUE,…]")
+      .one_word()
+      .group(picture);
+  command.add_option("--show", options->show, show_help())
+      .type_name("WHAT[,WHAT]")
+      .delimiter(',')
+      .one_word()
+      .group(picture);
   add(picture, "--face-size", "N", options->face_size,
       "image-based: texels along a cube face, default the camera's density at its centre");
   add(picture, "--tolerance", "PX", options->tolerance,
@@ -355,10 +354,10 @@ void add_render(CLI::App& tool) {
   add(time, "--animation", "NAME", options->view.animation, "Which of the scene's animations, default the first");
   add(time, "--frames", "N", options->view.frames, "Render N pictures over time, from --time on");
   add(time, "--fps", "F", options->view.fps, "Pictures a second of animation, default 30");
-  add_flag(*command, "--overwrite", options->overwrite, "Render the frames of a sequence that are there already, too")
-      ->group(time);
+  command.add_flag("--overwrite", options->overwrite, "Render the frames of a sequence that are there already, too")
+      .group(time);
   add("Report", "--stats", "FILE", options->stats, "Write times, triangles, bytes and techniques as JSON");
-  command->footer(
+  command.footer(
       channel_help() +
       "Examples:\n"
       "  omma render city --camera equidistant:fov_deg=180 --size 1024x1024 -o dome.png\n"
@@ -366,7 +365,7 @@ void add_render(CLI::App& tool) {
       "  omma render city --camera cylinder:fov_deg=360 --from -3,20,2 --to 0,5,0 -o c.png -o c.exr:distance\n"
       "  omma render robot.glb --camera equirectangular --frames 120 --fps 24 -o 'walk_%04d.jpg'\n"
       "A sequence that was cut off goes on with its first missing frame.");
-  command->callback([options] { Job(*options).run(); });
+  command.callback([options] { Job(*options).run(); });
 }
 
 }  // namespace omma::tool

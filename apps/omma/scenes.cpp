@@ -1,22 +1,20 @@
 // omma scenes: the built-in scenes and their parameters.
 #include <fmt/core.h>
 
-#include <CLI/App.hpp>
-
 #include "commands.h"
 #include "omma/scene/scene.h"
 
 namespace omma::tool {
 
-void add_scenes(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "scenes", "List the built-in scenes and their parameters");
-  command->footer(
+void add_scenes(const Command& tool) {
+  const Command command = tool.add_command("scenes", "List the built-in scenes and their parameters");
+  command.footer(
       "A scene is written NAME:KEY=VALUE,KEY=VALUE or is the name of a file that assimp reads (glTF, OBJ, PLY, STL,\n"
       "Collada, FBX and more).\n"
       "Examples:\n"
       "  omma scenes\n"
       "  omma render city:blocks=20,seed=3 --camera equirectangular -o city.png");
-  command->callback([] {
+  command.callback([] {
     for (const BuiltinScene& scene : builtin_scenes()) {
       fmt::print("{}\n    {}\n", scene.name, scene.description);
       for (const BuiltinParameter& parameter : scene.parameters) {

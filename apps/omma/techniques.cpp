@@ -1,22 +1,20 @@
 // omma techniques: the ways of drawing and their variants.
 #include <fmt/core.h>
 
-#include <CLI/App.hpp>
-
 #include "commands.h"
 #include "omma/technique/renderer.h"
 
 namespace omma::tool {
 
-void add_techniques(CLI::App& tool) {
-  CLI::App* command = add_command(tool, "techniques", "List the ways of drawing and their variants");
-  command->footer(
+void add_techniques(const Command& tool) {
+  const Command command = tool.add_command("techniques", "List the ways of drawing and their variants");
+  command.footer(
       "Written NAME or NAME:VARIANT; the first variant is the default. An exact technique draws what 'raycast' draws,\n"
       "but for rounding at edges.\n"
       "Examples:\n"
       "  omma techniques\n"
       "  omma render city --camera equidistant:fov_deg=180 --technique visibility -o city.png");
-  command->callback([] {
+  command.callback([] {
     for (const TechniqueInfo& technique : techniques()) {
       fmt::print("{} ({}{})\n    {}\n", technique.name, technique.exact ? "exact" : "approximate",
                  technique.needs_project ? ", not for ray maps" : "", technique.description);

@@ -1,13 +1,16 @@
 #include "omma/base/file.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <regex>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -15,6 +18,27 @@
 
 namespace omma {
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view unfinished = ".part";
+
+/// Which process writes a file that is not whole yet: PROCESS of `.STEM.PROCESS.part.EXTENSION`.
+std::optional<int> writer_of(std::string_view name) {
+  if (!name.starts_with('.')) return std::nullopt;
+  for (size_t at = name.find(unfinished); at != std::string_view::npos; at = name.find(unfinished, at + 1)) {
+    const size_t behind = at + unfinished.size();
+    if (behind < name.size() && name[behind] != '.') continue;
+    const size_t dot = at > 0 ? name.rfind('.', at - 1) : 0;
+    const char* const end = name.data() + at;
+    int process = 0;
+    const auto [last, error] = std::from_chars(name.data() + dot + 1, end, process);
+    if (dot > 0 && error == std::errc() && last == end && process > 0) return process;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::string read_file(const fs::path& path) {
   std::error_code error;
@@ -47,7 +71,8 @@ void require_writable(const fs::path& path) {
 void write_whole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   require_writable(path);
   fs::path temporary = path;
-  temporary.replace_filename(fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string()));
+  temporary.replace_filename(
+      fmt::format(".{}.{}{}{}", path.stem().string(), ::getpid(), unfinished, path.extension().string()));
   try {
     write(temporary);
     fs::rename(temporary, path);
@@ -63,15 +88,11 @@ void write_whole(const fs::path& path, const std::function<void(const fs::path&)
 }
 
 void remove_abandoned(const fs::path& folder) {
-  static const std::regex temporary_name(R"(\..*\.([0-9]{1,9})\.part(\..*)?)", std::regex::optimize);
   std::error_code error;
   std::vector<fs::path> abandoned;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    std::smatch match;
-    const std::string name = entry.path().filename().string();
-    if (!std::regex_match(name, match, temporary_name)) continue;
-    const bool writer_lives = ::kill(std::stoi(match[1]), 0) == 0 || errno != ESRCH;
-    if (!writer_lives) abandoned.push_back(entry.path());
+    const std::optional<int> writer = writer_of(entry.path().filename().string());
+    if (writer && ::kill(*writer, 0) != 0 && errno == ESRCH) abandoned.push_back(entry.path());
   }
   for (const fs::path& path : abandoned) fs::remove(path, error);
 }

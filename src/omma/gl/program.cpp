@@ -1,7 +1,9 @@
 #include "omma/gl/program.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <regex>
+#include <charconv>
 
 #include "omma/base/error.h"
 #include "omma/gl/shader_files.h"
@@ -43,18 +45,28 @@ void append_file(const std::string& name, const Defines& defines, std::vector<st
   }
 }
 
-/// Drivers name a source by its number, `0:12(5):` or `0(12) :`; people want its file.
-std::string name_files(const std::string& log, const std::vector<std::string>& files) {
-  static const std::regex position(R"((^|\n)(?:ERROR: )?(\d+)[:(](\d+))");
+/// Drivers name a source by its number, `0:12(5):`, `ERROR: 0:12:` or `0(12) :`; people want its file.
+std::string name_files(std::string_view log, const std::vector<std::string>& files) {
+  constexpr std::string_view prefix = "ERROR: ";
   std::string result;
-  auto rest = log.cbegin();
-  for (std::sregex_iterator match(log.begin(), log.end(), position), end; match != end; ++match) {
-    result.append(rest, (*match)[0].first);
-    const size_t number = std::stoul((*match)[2]);
-    result += (*match)[1].str() + (number < files.size() ? files[number] : (*match)[2].str()) + ":" + (*match)[3].str();
-    rest = (*match)[0].second;
+  while (!log.empty()) {
+    std::string_view line = log.substr(0, log.find('\n') + 1);  // all that is left, where no line ends
+    if (line.empty()) line = log;
+    log.remove_prefix(line.size());
+    const char* const end = line.data() + line.size();
+    size_t file = 0, row = 0;
+    const char* const begin = line.data() + (line.starts_with(prefix) ? prefix.size() : 0);
+    const auto [behind_file, no_file] = std::from_chars(begin, end, file);
+    if (no_file == std::errc() && behind_file != end && (*behind_file == ':' || *behind_file == '(')) {
+      const auto [behind_row, no_row] = std::from_chars(behind_file + 1, end, row);
+      if (no_row == std::errc()) {
+        result += fmt::format("{}:{}", file < files.size() ? files[file] : std::to_string(file), row);
+        line = std::string_view(behind_row, end);
+      }
+    }
+    result += line;
   }
-  return result.append(rest, log.cend());
+  return result;
 }
 
 struct ShaderTraits {
