@@ -1,5 +1,4 @@
 #include "omma/technique/effect_program.h"
-#include "omma/technique/sample_places.h"
 #include "omma/technique/technique.h"
 
 namespace omma {
@@ -11,9 +10,9 @@ void DrawTools::draw_fullscreen(const gl::Program& program) {
 }
 
 void DrawTools::multisampled(const View& view, const Target& target, const std::function<void(const Target&)>& draw) {
-  if (view.samples <= 1) return draw(target);
-  if (!multisample_target.fits(view.size(), view.outputs, view.samples)) {
-    multisample_target = Target(view.size(), view.outputs, view.samples);
+  if (view.samples() <= 1) return draw(target);
+  if (!multisample_target.fits(view.size(), view.outputs, view.samples())) {
+    multisample_target = Target(view.size(), view.outputs, view.samples());
   }
   draw(multisample_target);
   multisample_target.resolve_color(target);
@@ -36,18 +35,15 @@ void DrawTools::draw_background(const View& view) {
   if (view.camera.pieces() != nullptr) return draw_background_in_pieces(view);
   gl::Defines defines = camera_defines(view.camera);
   if (!view.labels()) defines["OUTPUT_COLOR"] = "0";
-  std::vector<glm::ivec2> places;
-  if (view.samples > 1) {
-    places = sample_places(view.samples);
-    defines["SAMPLES"] = std::to_string(places.size());
-  }
+  const bool multisamples = view.samples() > 1;
+  if (multisamples) defines["SAMPLES"] = std::to_string(view.samples());
   const gl::Program& program = programs.get(
       {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "common/background.frag"}}, defines);
   set_camera(program, view);
-  if (!places.empty()) {
+  if (multisamples) {
     const GLfloat nearest = 1.0f;
     glClearBufferfv(GL_DEPTH, 0, &nearest);
-    program.set("sample_places", std::span<const glm::ivec2>(places));
+    program.set("sample_places", view.sample_places);
   }
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);

@@ -14,8 +14,8 @@ namespace omma {
 /// The samples of a picture as passes: one with the driver's own samples where it has just as many, otherwise some with
 /// a sample at each of several shifts.
 struct GpuRenderer::Passes {
-  Passes(int samples, int most_driver_samples, size_t shifts_at_once);
-  int driver_samples = 1;  ///< in a pass
+  Passes(int samples, int most_driver_samples, size_t shifts_at_once, SamplePlaces& places_of_driver);
+  std::span<const glm::ivec2> sample_places = one_sample_place;  ///< in a pass
   std::vector<glm::dvec2> shifts;
   size_t at_once = 1;  ///< of the shifts, but in the last pass
   size_t count() const { return (shifts.size() + at_once - 1) / at_once; }
@@ -46,13 +46,14 @@ void paste(const Image& tile, const PixelRect& place, Image& whole) {
 
 }  // namespace
 
-GpuRenderer::Passes::Passes(int wanted, int most_driver_samples, size_t shifts_at_once) {
+GpuRenderer::Passes::Passes(int wanted, int most_driver_samples, size_t shifts_at_once,
+                            SamplePlaces& places_of_driver) {
   // Drivers have powers of two. To shift their pattern for more samples than they have would sample neighbouring
   // pixels.
   if (wanted > 1 && wanted <= most_driver_samples && std::has_single_bit(unsigned(wanted))) {
-    const std::vector<glm::ivec2> places = sample_places(wanted);
+    const std::span<const glm::ivec2> places = places_of_driver.of(wanted);
     if (places.size() == size_t(wanted)) {
-      driver_samples = wanted;
+      sample_places = places;
       // Not every driver's pattern has its middle in the pixel's.
       glm::dvec2 middle(0.0);
       for (const glm::ivec2& place : places) middle += glm::dvec2(place) / double(wanted);
@@ -115,7 +116,7 @@ double GpuRenderer::timed(const std::function<void()>& draw) {
 Image GpuRenderer::draw_color(Technique& technique, View view, const Passes& passes, bool show_pieces) {
   static constexpr Channel outputs[] = {Channel::color};
   view.outputs = outputs;
-  view.samples = passes.driver_samples;
+  view.sample_places = passes.sample_places;
   const Target& picture = target_for(view.size(), outputs);
   const std::span<const glm::dvec2> shifts(passes.shifts);
   const auto draw_pass = [&](std::span<const glm::dvec2> of_pass) {
@@ -198,8 +199,8 @@ std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dm
   const int side = options.tile > 0 ? std::min(options.tile, most) : std::min(most, preferred_tile);
   const std::vector<PixelRect> tiles = tiles_of(camera.size(), side);
   const ImageSize largest{std::min(side, camera.size().width), std::min(side, camera.size().height)};
-  const Passes passes(options.samples, technique.multisamples() ? limits.samples : 1,
-                      technique.shifts_at_once(largest));
+  const Passes passes(options.samples, technique.multisamples() ? limits.samples : 1, technique.shifts_at_once(largest),
+                      sample_places_);
 
   std::map<Channel, Image> pictures;
   for (Channel channel : wanted) pictures.emplace(channel, make_image(channel, camera.size()));

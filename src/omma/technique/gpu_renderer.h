@@ -47,6 +47,7 @@ class GpuRenderer {
 
   gl::Context context_;
   ProgramCache programs_;  ///< of all scenes: compiling takes longer than drawing
+  SamplePlaces sample_places_;
   std::unique_ptr<GpuScene> gpu_scene_;
   std::unique_ptr<DrawTools> tools_;
   std::map<std::string, std::unique_ptr<Technique>> techniques_;

@@ -4,9 +4,9 @@
 
 namespace omma {
 
-std::vector<glm::ivec2> sample_places(int samples) {
-  constexpr int parts = 256;
-  if (samples <= 1) return {glm::ivec2(parts / 2)};
+namespace {
+
+std::vector<glm::ivec2> ask_for_places(int samples) {
   // Asked of a framebuffer of its own: what is bound may be anything, and stays bound.
   GLint bound = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
@@ -20,9 +20,18 @@ std::vector<glm::ivec2> sample_places(int samples) {
   for (int s = 0; s < given; ++s) {
     glm::vec2 place;
     glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(s), &place.x);
-    places.emplace_back(glm::round(place * float(parts)));
+    places.emplace_back(glm::round(place * float(sample_parts)));
   }
   glBindFramebuffer(GL_FRAMEBUFFER, GLuint(bound));
+  return places;
+}
+
+}  // namespace
+
+std::span<const glm::ivec2> SamplePlaces::of(int samples) {
+  if (samples <= 1) return one_sample_place;
+  std::vector<glm::ivec2>& places = known_[samples];
+  if (places.empty()) places = ask_for_places(samples);
   return places;
 }
 

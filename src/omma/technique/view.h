@@ -8,6 +8,7 @@
 #include "omma/camera/camera.h"
 #include "omma/image/image.h"
 #include "omma/technique/picture.h"
+#include "omma/technique/sample_places.h"
 
 namespace omma {
 
@@ -18,8 +19,9 @@ struct View {
   glm::dvec2 shift{0.0};                 ///< where in its pixel this pass samples, from the centre, pixels
   std::span<const glm::dvec2> shifts{};  ///< instead, where this pass takes several samples; none of labels
   std::span<const Channel> outputs{};    ///< {color}, channels other than color, or none: depth
-  int samples = 1;                       ///< per pixel in this pass, as far as the technique multisamples
-  std::span<const Effect> effects{};     ///< on color
+  /// Where in its pixel the driver samples, beside the shift, as far as the technique multisamples.
+  std::span<const glm::ivec2> sample_places = one_sample_place;
+  std::span<const Effect> effects{};  ///< on color
   Filter filter = Filter::anisotropic;
   int face_size = 0;
   PieceOptions pieces{};
@@ -27,6 +29,7 @@ struct View {
   bool show_overdraw = false;                 ///< instead of colour
   BoundFragments* bound_fragments = nullptr;  ///< added to where they are to be counted
 
+  int samples() const { return int(sample_places.size()); }
   bool labels() const { return outputs.empty() || outputs.front() != Channel::color; }
   /// Where in its pixel this pass samples, all of it.
   std::span<const glm::dvec2> all_shifts() const {

@@ -176,25 +176,25 @@ class ImageBased : public Technique {
 
   void draw_passes(const View& view) {
     const glm::dmat4 cameraFromWorld = glm::inverse(view.worldFromCamera);
-    if (view.samples > 1 && !multisample_.fits(images_.size, view.outputs, view.samples)) {
-      multisample_ = Target(images_.size, view.outputs, view.samples);
+    if (view.samples() > 1 && !multisample_.fits(images_.size, view.outputs, view.samples())) {
+      multisample_ = Target(images_.size, view.outputs, view.samples());
     }
     MeshDrawer drawer(tools_);
     for (size_t layer = 0; layer < faces_.size(); ++layer) {
       const Face& face = faces_[layer];
       const GLuint destination = images_.layers[layer].id();
-      const GLuint framebuffer = view.samples > 1 ? multisample_.framebuffer() : destination;
+      const GLuint framebuffer = view.samples() > 1 ? multisample_.framebuffer() : destination;
       glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
       clear_outputs(framebuffer, view.outputs);
       glViewport(0, 0, face.size.width, face.size.height);
       drawer.draw(pass_to(face.clipFromCamera, face.clipFromCamera * cameraFromWorld), view);
-      if (view.samples > 1) copy(framebuffer, destination, face.size, view.outputs.size());
+      if (view.samples() > 1) copy(framebuffer, destination, face.size, view.outputs.size());
     }
   }
 
   void draw_layered(const View& view) {
-    if (!layered_.fits(images_.size, view.outputs, view.samples, face_count)) {
-      layered_ = Target(images_.size, view.outputs, view.samples, face_count);
+    if (!layered_.fits(images_.size, view.outputs, view.samples(), face_count)) {
+      layered_ = Target(images_.size, view.outputs, view.samples(), face_count);
     }
     std::array<glm::mat4, face_count> clips;
     std::array<int, face_count> layers;

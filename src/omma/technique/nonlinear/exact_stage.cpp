@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include "omma/technique/sample_places.h"
-
 namespace omma {
 namespace {
 
@@ -11,13 +9,6 @@ constexpr const char* fragment_shaders[] = {"technique/nonlinear/exact.frag", "t
                                             "technique/nonlinear/touched.frag", "technique/nonlinear/kept.frag"};
 
 }  // namespace
-
-void ExactStage::set(const View& view, FragmentUse use) {
-  use_ = use;
-  if (samples_ == view.samples) return;
-  samples_ = view.samples;
-  sample_places_ = sample_places(samples_);
-}
 
 MeshPass ExactStage::straight_pass(const View& view, std::vector<gl::Stage> stages) const {
   MeshPass straight = pass(view, std::move(stages));
@@ -29,7 +20,7 @@ MeshPass ExactStage::straight_pass(const View& view, std::vector<gl::Stage> stag
 
 MeshPass ExactStage::pass(const View& view, std::vector<gl::Stage> stages) const {
   gl::Defines defines = camera_defines(view.camera);
-  defines["SAMPLES"] = std::to_string(sample_places_.size());
+  defines["SAMPLES"] = std::to_string(view.samples());
   defines["NEAR"] = fmt::format("{:.9f}", near_depth);
   return {.stages = std::move(stages),
           .defines = std::move(defines),
@@ -37,7 +28,7 @@ MeshPass ExactStage::pass(const View& view, std::vector<gl::Stage> stages) const
               [this, &view](const gl::Program& program) {
                 set_camera(program, view);
                 program.set("tile_size", glm::vec2(view.size().width, view.size().height));
-                program.set("sample_places", std::span<const glm::ivec2>(sample_places_));
+                program.set("sample_places", view.sample_places);
                 tools_.camera_textures.bind(view.camera);
                 tools_.scene.bind_vertex_textures();
               },

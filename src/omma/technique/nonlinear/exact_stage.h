@@ -21,8 +21,8 @@ class ExactStage {
  public:
   explicit ExactStage(DrawTools& tools) : tools_(tools) {}
 
-  /// Takes the view that the next passes draw.
-  void set(const View& view, FragmentUse use);
+  /// What the next passes do with what they cover.
+  void set(FragmentUse use) { use_ = use; }
 
   /// A pass with these stages before shaders/technique/nonlinear/exact.frag. They write EXACT_TRIANGLE, with
   /// nearest_depth() as depth, for shapes that cover every pixel and sample in which a triangle is seen, each once
@@ -35,8 +35,6 @@ class ExactStage {
  private:
   DrawTools& tools_;
   FragmentUse use_ = FragmentUse::surfaces;
-  int samples_ = 0;
-  std::vector<glm::ivec2> sample_places_;
 };
 
 }  // namespace omma

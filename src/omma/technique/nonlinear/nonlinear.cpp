@@ -30,7 +30,7 @@ class Nonlinear : public Technique {
   size_t buffer_bytes() const override { return drawer_->buffer_bytes(); }
 
   void draw(const View& view, const Target& target) override {
-    exact_.set(view, view.show_overdraw && !view.labels() ? FragmentUse::overdraw : FragmentUse::surfaces);
+    exact_.set(view.show_overdraw && !view.labels() ? FragmentUse::overdraw : FragmentUse::surfaces);
     tools_.multisampled(view, target, [&](const Target& image) {
       image.begin();
       tools_.timer.mark("background");
@@ -46,7 +46,7 @@ class Nonlinear : public Technique {
   void count(const View& view, BoundFragments& fragments) {
     tools_.timer.mark("count fragments");
     View counted = view;
-    counted.samples = 1;
+    counted.sample_places = one_sample_place;
     const gl::Framebuffer nothing = gl::create_framebuffer();
     glNamedFramebufferParameteri(nothing.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, view.size().width);
     glNamedFramebufferParameteri(nothing.id(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, view.size().height);
@@ -55,7 +55,7 @@ class Nonlinear : public Technique {
     gl::Counters of_picture;
     std::swap(of_picture, tools_.counters);
     const auto samples_of = [&](FragmentUse use) {
-      exact_.set(counted, use);
+      exact_.set(use);
       glBindFramebuffer(GL_FRAMEBUFFER, nothing.id());
       drawer_->draw(counted, exact_);
       return tools_.counters.finish().samples;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "omma/technique/sample_places.h"
 #include "omma/technique/target.h"
 
 namespace omma {
@@ -142,10 +141,7 @@ void add_node(std::vector<ConeNode>& nodes, const std::vector<PieceRecord>& piec
 }  // namespace
 
 void GpuPieces::set(const Camera& pieces, const View& view) {
-  if (samples_ != view.samples) {
-    samples_ = view.samples;
-    sample_places_ = sample_places(view.samples);
-  }
+  sample_places_ = view.sample_places;
   if (camera_ == pieces && tile_ == view.tile && shift_ == view.shift) return;
   camera_ = pieces;
   set_ = camera_->pieces();
@@ -225,7 +221,7 @@ gl::Defines GpuPieces::defines() const {
 void GpuPieces::set_uniforms(const gl::Program& program) const {
   program.set("near_depth", near_depth);
   program.set("node_count", node_count_);
-  program.set("sample_places", std::span<const glm::ivec2>(sample_places_));
+  program.set("sample_places", sample_places_);
   if (!overlapping_) return;
   const glm::dvec2 corner = glm::dvec2(tile_.x0, tile_.y0) + shift_;
   program.set("bin_origin", glm::ivec2(on_piece_grid(corner + double(PieceSet::bin_side))));

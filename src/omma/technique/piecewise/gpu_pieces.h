@@ -49,8 +49,7 @@ class GpuPieces : public ConeTree {
   const PieceSet* set_ = nullptr;
   PixelRect tile_;
   glm::dvec2 shift_{0.0};
-  int samples_ = 0;
-  std::vector<glm::ivec2> sample_places_;
+  std::span<const glm::ivec2> sample_places_;
   std::vector<std::array<glm::dvec3, 4>> planes_;  ///< as in the record
   std::vector<bool> mirrored_;
   bool any_mirrored_ = false, all_mirrored_ = false, overlapping_ = false;
