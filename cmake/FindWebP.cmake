@@ -1,7 +1,2 @@
-# Debian's libwebp ships only pkg-config files.
-find_package(PkgConfig REQUIRED QUIET)
-pkg_check_modules(WebP REQUIRED QUIET IMPORTED_TARGET GLOBAL libwebp libwebpdemux)
-if(NOT TARGET WebP::webp)
-  add_library(WebP::webp ALIAS PkgConfig::WebP)
-endif()
-set(WebP_FOUND ON)
+include(${CMAKE_CURRENT_LIST_DIR}/FindByPkgConfig.cmake)
+omma_find_by_pkg_config(WebP WebP::webp libwebp libwebpdemux)

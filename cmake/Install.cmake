@@ -17,8 +17,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/omma-config-version.cmake
 install(FILES ${PROJECT_BINARY_DIR}/omma-config.cmake ${PROJECT_BINARY_DIR}/omma-config-version.cmake
         DESTINATION ${package_folder})
 # Modules for dependencies whose own CMake package is missing or of no use.
-install(FILES ${PROJECT_SOURCE_DIR}/cmake/Findepoxy.cmake ${PROJECT_SOURCE_DIR}/cmake/Findspng.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/FindWebP.cmake
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/FindByPkgConfig.cmake ${PROJECT_SOURCE_DIR}/cmake/Findepoxy.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/Findspng.cmake ${PROJECT_SOURCE_DIR}/cmake/FindWebP.cmake
         DESTINATION ${package_folder})
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "omma/base/error.h"
@@ -10,8 +11,22 @@
 #include "omma/image/compare.h"
 #include "omma/math/pose.h"
 #include "omma/technique/registry.h"
+#include "tests/proof.h"
 
 namespace omma {
+namespace {
+
+/// Mesa's software driver spends most of these tests' time on optimizing programs that draw a few small pictures. What
+/// they compute is the same without; the full proof has what users have.
+class CompilePlainly : public ::testing::Environment {
+  void SetUp() override {
+    if (!full_proof()) ::setenv("GALLIVM_PERF", "nopt", 0);
+  }
+};
+
+[[maybe_unused]] const auto* const compile_plainly = ::testing::AddGlobalTestEnvironment(new CompilePlainly);
+
+}  // namespace
 
 Camera small_camera(const LensModel& model, int side) {
   const ImageSize full = make_camera(model.info.example).size();

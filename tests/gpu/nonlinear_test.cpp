@@ -6,6 +6,7 @@
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {
@@ -57,7 +58,10 @@ TEST_F(NonlinearTest, DrawsWhatIsHardToBound) {
   const glm::dmat4 pose = look_at_worldFromCamera(glm::dvec3(0.05, 0.02, 0.03), glm::dvec3(1.0, 0.3, -2.0));
   const Oracle oracle(scene, pose);
   size_t edges = 0, pixels = 0;
-  for (const auto& [name, camera] : all_cameras(96)) {
+  const std::vector<NamedCamera> cameras = all_cameras(96);
+  for (size_t row = 0; row < cameras.size(); ++row) {
+    if (!is_proved_today(row, 0, 3)) continue;
+    const auto& [name, camera] = cameras[row];
     const Verdict verdict =
         judge(oracle, camera, draw_ids(camera, pose, "nonlinear"), {.radius = 1.0 / 128.0, .cracks = false});
     EXPECT_EQ(verdict.wrong, 0u) << name << ": " << verdict.first_wrong;

@@ -27,30 +27,49 @@ bool is_opaque(const Scene& scene) {
                      [](const Material& material) { return material.alpha == Material::Alpha::opaque; });
 }
 
+/// All but raycast itself, which has a test of its own against the oracle, and what SubdivisionTest shows to be the
+/// same within the tolerance.
+std::vector<std::string> compared_techniques() {
+  std::vector<std::string> names = distinct_technique_names();
+  std::erase(names, "raycast");
+  std::erase(names, "subdivision:tessellator");
+  return names;
+}
+
 class TechniquesTest : public GpuTest, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(TechniquesTest, DrawsRealScenesAsRaycastDoes) {
   size_t pictures = 0;
   double worst_share = 0.0, least_psnr = 1000.0;
   const std::vector<NamedCamera> cameras = all_cameras(256);
-  for (size_t column = 0; column < std::size(scenes); ++column) {
-    const char* scene_name = scenes[column];
+  const std::vector<std::string> techniques = compared_techniques();
+  const size_t technique_number =
+      size_t(std::find(techniques.begin(), techniques.end(), GetParam()) - techniques.begin());
+  for (size_t i = 0; i < std::size(scenes); ++i) {
+    const char* scene_name = scenes[i];
+    const size_t column = technique_number * std::size(scenes) + i;
     const Scene scene = load_scene(scene_name);
     const glm::dmat4 pose = default_pose(scene);
     renderer().load(scene);
     for (size_t row = 0; row < cameras.size(); ++row) {
       const auto& [name, camera] = cameras[row];
-      if (!can_draw(GetParam(), camera) || !is_proved_today(row, column, std::size(scenes))) continue;
+      if (!can_draw(GetParam(), camera) || !is_proved_today(row, column, techniques.size() * std::size(scenes))) {
+        continue;
+      }
       SCOPED_TRACE(fmt::format("{} in {}", name, scene_name));
       ++pictures;
       const IntImage ids = draw_ids(camera, pose, GetParam()), truth = draw_ids(camera, pose, "raycast");
       const double share = share_of_differences(ids, truth);
-      const double decibels = psnr(draw_color(camera, pose, {.technique = GetParam(), .samples = 4}),
-                                   draw_color(camera, pose, {.technique = "raycast", .samples = 4}));
-      std::cout << fmt::format("{:16} {:20} wrong ids {:6.3f}%, PSNR {:5.1f} dB\n", scene_name, name, 100 * share,
-                               decibels);
       worst_share = std::max(worst_share, share);
-      least_psnr = std::min(least_psnr, decibels);
+      std::cout << fmt::format("{:16} {:20} wrong ids {:6.3f}%", scene_name, name, 100 * share);
+      // Colours of each camera in one scene: their programs take three quarters of the time.
+      if (full_proof() || row % std::size(scenes) == i) {
+        const double decibels = psnr(draw_color(camera, pose, {.technique = GetParam(), .samples = 4}),
+                                     draw_color(camera, pose, {.technique = "raycast", .samples = 4}));
+        least_psnr = std::min(least_psnr, decibels);
+        std::cout << fmt::format(", PSNR {:5.1f} dB", decibels);
+      }
+      std::cout << '\n';
       if (info_of(GetParam()).exact && is_opaque(scene)) {
         // Drivers snap vertices to 1/256 px, which moves an edge by up to 1/128 px.
         const Verdict verdict = judge(Oracle(scene, pose), camera, ids, {.radius = 1.0 / 128.0, .cracks = true});
@@ -60,7 +79,7 @@ TEST_P(TechniquesTest, DrawsRealScenesAsRaycastDoes) {
       }
     }
   }
-  EXPECT_GT(pictures, 0u);
+  if (pictures == 0) GTEST_SKIP() << "it can draw few cameras, none of them today";
   RecordProperty("wrong_ids_percent", fmt::format("{:.3f}", 100 * worst_share));
   RecordProperty("least_psnr_db", fmt::format("{:.1f}", least_psnr));
   // Observed on llvmpipe: planar 0.05% and 35.9 dB (both have four samples a pixel, elsewhere); image-based 13.2%
@@ -75,15 +94,6 @@ TEST_P(TechniquesTest, DrawsRealScenesAsRaycastDoes) {
   EXPECT_GT(least_psnr, exact ? 26.0 : technique == "vertex" ? 9.0 : has_tolerance ? 28.0 : 27.0);
 }
 
-/// All but raycast itself, which has a test of its own against the oracle, and what SubdivisionTest shows to be the
-/// same within the tolerance.
-std::vector<std::string> compared_techniques() {
-  std::vector<std::string> names = distinct_technique_names();
-  std::erase(names, "raycast");
-  std::erase(names, "subdivision:tessellator");
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, TechniquesTest, ::testing::ValuesIn(compared_techniques()),
                          [](const auto& tested) { return test_name(tested.param); });
 
@@ -95,7 +105,10 @@ TEST_F(ImageBasedTest, VariantsDrawTheSamePicture) {
   renderer().load(scene);
   const auto& variants = info_of("image-based").variants;
   ASSERT_GE(variants.size(), 2u);
-  for (const auto& [name, camera] : all_cameras(256)) {
+  const std::vector<NamedCamera> cameras = all_cameras(256);
+  for (size_t row = 0; row < cameras.size(); ++row) {
+    if (!is_proved_today(row, 0, 3)) continue;
+    const auto& [name, camera] = cameras[row];
     SCOPED_TRACE(name);
     const std::string first = "image-based:" + variants.front().name;
     const IntImage ids = draw_ids(camera, pose, first);
@@ -117,7 +130,9 @@ TEST_F(ImageBasedTest, ARayMapLooksLikeTheLensItWasSampledFrom) {
   const Scene scene = load_scene("city:blocks=2");
   const glm::dmat4 pose = default_pose(scene);
   renderer().load(scene);
-  for (const LensModel& model : lens_models()) {
+  for (size_t row = 0; row < lens_models().size(); ++row) {
+    if (!is_proved_today(row, 0, 3)) continue;
+    const LensModel& model = lens_models()[row];
     SCOPED_TRACE(model.info.name);
     const Camera lens = small_camera(model, 256), map = as_ray_map(lens);
     // A map's density is measured over a pixel, a lens's at a point; the same faces make them comparable.
