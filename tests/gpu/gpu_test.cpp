@@ -71,6 +71,17 @@ std::vector<std::string> technique_names() {
   return names;
 }
 
+std::vector<std::string> technique_names_of_today() {
+  std::vector<std::string> names;
+  for (const TechniqueInfo& technique : techniques()) {
+    if (technique.variants.empty()) names.push_back(technique.name);
+    for (size_t i = 0; i < technique.variants.size(); ++i) {
+      const std::string name = technique.name + ":" + technique.variants[i].name;
+      if (name == "visibility:cpu" || is_proved_today(0, i, technique.variants.size())) names.push_back(name);
+    }
+  }
+  return names;
+}
 std::vector<std::string> distinct_technique_names() {
   std::vector<std::string> names = technique_names();
   std::erase_if(names, [](const std::string& name) {

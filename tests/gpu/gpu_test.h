@@ -35,6 +35,9 @@ std::vector<NamedCamera> all_cameras(int side);
 
 /// Every technique in every variant, as render takes it.
 std::vector<std::string> technique_names();
+/// Each technique, by one of its variants each day (tests/proof.h); by all in the full proof. What `auto` takes without
+/// a GPU is always among them.
+std::vector<std::string> technique_names_of_today();
 /// Those without the variants that tests of their own show to draw the same picture, only slower.
 std::vector<std::string> distinct_technique_names();
 bool can_draw(const std::string& technique, const Camera& camera);

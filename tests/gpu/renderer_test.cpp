@@ -65,13 +65,13 @@ TEST_F(RendererTest, UpdateBeforeLoadIsRefused) {
 TEST_F(RendererTest, SeveralLiveAndDieSideBySide) {
   const Channel wanted[] = {Channel::color, Channel::id};
   std::map<std::string, IntImage> before;
-  for (const std::string& technique : technique_names()) {
+  for (const std::string& technique : technique_names_of_today()) {
     if (can_draw(technique, camera_)) before[technique] = draw_ids(camera_, pose_, technique);
   }
   {
     Renderer other;
     other.load(scene_);
-    for (const std::string& technique : technique_names()) {
+    for (const std::string& technique : technique_names_of_today()) {
       if (can_draw(technique, camera_)) other.render(camera_, pose_, wanted, {.technique = technique});
     }
     draw_ids(camera_, pose_, "raycast");  // the other is no longer current when it goes
@@ -100,7 +100,7 @@ TEST_F(RendererTest, ANewRayMapIsNotTakenForAnOldOne) {
   };
   for (int i = 0; i < 6; ++i) {
     const bool ahead = i % 2 == 0;
-    for (const std::string& technique : technique_names()) {
+    for (const std::string& technique : technique_names_of_today()) {
       const Camera map = straight_ahead(ahead);
       if (!can_draw(technique, map)) continue;
       const auto pictures = draw(map, pose_, {Channel::id, Channel::distance}, {.technique = technique});
@@ -112,7 +112,7 @@ TEST_F(RendererTest, ANewRayMapIsNotTakenForAnOldOne) {
 }
 
 TEST_F(RendererTest, EveryChannelComesInItsOwnShapeAndSaysNothingWhereThereIsNothing) {
-  for (const std::string& technique : technique_names()) {
+  for (const std::string& technique : technique_names_of_today()) {
     const Camera flat = make_camera("perspective:fov_deg=90", ImageSize{33, 20});
     std::vector<Channel> wanted;
     for (const ChannelInfo& info : channels()) wanted.push_back(info.channel);
@@ -136,7 +136,7 @@ TEST_F(RendererTest, EveryChannelComesInItsOwnShapeAndSaysNothingWhereThereIsNot
 
 TEST_F(RendererTest, ASceneWithoutTrianglesInViewIsBackground) {
   const glm::dmat4 away = translation({0, 0, -100});
-  for (const std::string& technique : technique_names()) {
+  for (const std::string& technique : technique_names_of_today()) {
     const Camera flat = make_camera("perspective:fov_deg=90", ImageSize{33, 20});
     const Camera& camera = can_draw(technique, camera_) ? camera_ : flat;
     const FloatImage color =
