@@ -26,4 +26,7 @@ constexpr bool is_of_day(size_t day, size_t row, size_t column, size_t columns) 
 /// Whether this run takes the pair.
 bool is_proved_today(size_t row, size_t column, size_t columns);
 
+/// Whether this run takes the row of a long list: a third each day, all within three.
+inline bool is_proved_today(size_t row) { return is_proved_today(row, 0, 3); }
+
 }  // namespace omma

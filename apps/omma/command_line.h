@@ -1,5 +1,5 @@
-// The command line: commands, their options, what they call. CLI11 reads the words; it stays behind this header, for a
-// file that includes it takes three times as long to compile.
+// The command line: commands, their options, what they call. CLI11 reads the words; it stays behind this header, for it
+// takes seconds to compile in every file that includes it.
 #pragma once
 
 #include <functional>

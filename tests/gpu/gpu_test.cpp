@@ -82,6 +82,7 @@ std::vector<std::string> technique_names_of_today() {
   }
   return names;
 }
+
 std::vector<std::string> distinct_technique_names() {
   std::vector<std::string> names = technique_names();
   std::erase_if(names, [](const std::string& name) {
