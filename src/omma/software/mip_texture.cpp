@@ -7,18 +7,22 @@
 
 #include "omma/base/error.h"
 #include "omma/image/srgb.h"
+#include "omma/image/srgb8.h"
 #include "omma/software/box_filter.h"
 
 namespace omma {
 namespace {
 
-uint32_t packed(const glm::vec4& linear, bool srgb) {
-  uint32_t bits = 0;
-  for (int c = 0; c < 4; ++c) {
-    const float value = srgb && c < 3 ? srgb_from_linear(linear[c]) : linear[c];
-    bits |= uint32_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))) << (8 * c);
+void pack(const std::vector<glm::vec4>& linear, bool srgb, std::vector<uint32_t>& to) {
+  const auto part = [](float value) { return uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); };
+  std::vector<glm::u8vec4> bytes(linear.size());
+  if (srgb) srgb8_from_linear(&linear.data()->x, &bytes.data()->x, 4 * linear.size());
+  for (size_t i = 0; i < linear.size(); ++i) {
+    if (!srgb) bytes[i] = {part(linear[i].r), part(linear[i].g), part(linear[i].b), 0};
+    bytes[i].a = part(linear[i].a);
+    to.push_back(uint32_t(bytes[i].r) | uint32_t(bytes[i].g) << 8 | uint32_t(bytes[i].b) << 16 |
+                 uint32_t(bytes[i].a) << 24);
   }
-  return bits;
 }
 
 }  // namespace
@@ -46,7 +50,7 @@ MipTexture::MipTexture(const Texture& texture)
     level = next_level(level, size);
     size = next_size(size);
     first[size_t(l)] = int32_t(texels.size());
-    for (const glm::vec4& value : level) texels.push_back(packed(value, srgb));
+    pack(level, srgb, texels);
   }
 }
 

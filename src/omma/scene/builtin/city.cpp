@@ -1,7 +1,8 @@
 // The plan of the city: streets, crossings, blocks.
-#include <algorithm>
-
 #include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 
 #include "omma/scene/builtin/builtin.h"
 #include "omma/scene/builtin/city.h"
@@ -41,21 +42,37 @@ Mesh make_plain(float half) {
   return mesh;
 }
 
+/// In the order of CityMaterial.
+struct Paint {
+  Texture (*paint)();
+  float roughness, metallic = 0.0f;
+};
+constexpr Paint paints[] = {
+    {paint_road, 0.9f},
+    {paint_asphalt, 0.9f},
+    {paint_crossing, 0.9f},
+    {paint_pavement, 0.9f},
+    {paint_grass, 1.0f},
+    {paint_brick_windows, 0.8f},
+    {paint_plaster_windows, 0.8f},
+    {paint_glass_front, 0.25f, 0.3f},
+    {paint_concrete, 0.8f},
+    {paint_roof_tiles, 0.8f},
+    {paint_shopfront, 0.6f},
+    {paint_bark, 1.0f},
+    {paint_leaves, 0.9f},
+    {[] {
+       return paint_metal({0.34f, 0.36f, 0.38f});
+     },
+     0.5f, 0.5f},
+};
+
 void add_materials(SceneBuilder& builder) {
-  builder.add_material(paint_road(), 0.9f);
-  builder.add_material(paint_asphalt(), 0.9f);
-  builder.add_material(paint_crossing(), 0.9f);
-  builder.add_material(paint_pavement(), 0.9f);
-  builder.add_material(paint_grass(), 1.0f);
-  builder.add_material(paint_brick_windows(), 0.8f);
-  builder.add_material(paint_plaster_windows(), 0.8f);
-  builder.add_material(paint_glass_front(), 0.25f, 0.3f);
-  builder.add_material(paint_concrete(), 0.8f);
-  builder.add_material(paint_roof_tiles(), 0.8f);
-  builder.add_material(paint_shopfront(), 0.6f);
-  builder.add_material(paint_bark(), 1.0f);
-  builder.add_material(paint_leaves(), 0.9f);
-  builder.add_material(paint_metal({0.34f, 0.36f, 0.38f}), 0.5f, 0.5f);
+  std::vector<Texture> painted(std::size(paints));
+  tbb::parallel_for(size_t{0}, painted.size(), [&](size_t i) { painted[i] = paints[i].paint(); });
+  for (size_t i = 0; i < painted.size(); ++i) {
+    builder.add_material(std::move(painted[i]), paints[i].roughness, paints[i].metallic);
+  }
 }
 
 }  // namespace

@@ -18,6 +18,16 @@ float lattice(int x, int y, int period, uint64_t seed) {
       .between(-1.0f, 1.0f);
 }
 
+/// A place between two cells: the first of them, and how much of the second there is.
+struct Between {
+  explicit Between(float place) : first(static_cast<int>(std::floor(place))) {
+    const float t = place - std::floor(place);
+    part = t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
+  }
+  int first;
+  float part;
+};
+
 /// A running bond of `columns` by `rows` blocks with joints `joint` of a row high.
 void lay_blocks(Canvas& canvas, int columns, int rows, float joint, const glm::vec3& joint_color, float variation,
                 uint64_t seed) {
@@ -65,13 +75,10 @@ void set_windows(Canvas& canvas, const glm::vec3& frame, const glm::vec3& sill, 
 }  // namespace
 
 float periodic_noise(float x, float y, int period, uint64_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto smooth = [](float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); };
-  const float tx = smooth(x - fx), ty = smooth(y - fy);
-  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-  const float top = std::lerp(lattice(ix, iy, period, seed), lattice(ix + 1, iy, period, seed), tx);
-  const float bottom = std::lerp(lattice(ix, iy + 1, period, seed), lattice(ix + 1, iy + 1, period, seed), tx);
-  return std::lerp(top, bottom, ty);
+  const Between across(x), down(y);
+  const auto corner = [&](int i, int j) { return lattice(across.first + i, down.first + j, period, seed); };
+  return std::lerp(std::lerp(corner(0, 0), corner(1, 0), across.part),
+                   std::lerp(corner(0, 1), corner(1, 1), across.part), down.part);
 }
 
 void Canvas::rectangle(float x0, float y0, float x1, float y1, const glm::vec3& color) {
@@ -82,15 +89,34 @@ void Canvas::rectangle(float x0, float y0, float x1, float y1, const glm::vec3& 
 }
 
 void Canvas::mottle(int cells, float amount, uint64_t seed) {
-  for (int y = 0; y < side_; ++y) {
-    for (int x = 0; x < side_; ++x) {
-      float sum = 0.0f, weight = 0.6f;
-      for (int period = cells, octave = 0; octave < 4; ++octave, period *= 2, weight *= 0.5f) {
-        const float scale = static_cast<float>(period) / static_cast<float>(side_);
-        sum += weight * periodic_noise(static_cast<float>(x) * scale, static_cast<float>(y) * scale, period,
-                                       seed + static_cast<uint64_t>(octave));
-      }
-      at(x, y) *= 1.0f + amount * sum;
+  std::vector<float> sum(pixels_.size(), 0.0f);
+  float weight = 0.6f;
+  for (int period = cells, octave = 0; octave < 4; ++octave, period *= 2, weight *= 0.5f) {
+    add_noise(period, seed + static_cast<uint64_t>(octave), weight, sum);
+  }
+  for (size_t i = 0; i < pixels_.size(); ++i) pixels_[i] *= 1.0f + amount * sum[i];
+}
+
+/// periodic_noise for each texel, of which many share the corners of a cell.
+void Canvas::add_noise(int period, uint64_t seed, float weight, std::vector<float>& sum) const {
+  std::vector<float> corners;
+  corners.reserve(static_cast<size_t>(period) * static_cast<size_t>(period));
+  for (int y = 0; y < period; ++y) {
+    for (int x = 0; x < period; ++x) corners.push_back(lattice(x, y, period, seed));
+  }
+  const float scale = static_cast<float>(period) / static_cast<float>(side_);
+  std::vector<Between> places;
+  for (int i = 0; i < side_; ++i) places.emplace_back(static_cast<float>(i) * scale);
+  const auto row_of = [&](int y) {
+    return corners.data() + static_cast<ptrdiff_t>(y % period) * static_cast<ptrdiff_t>(period);
+  };
+  auto to = sum.begin();
+  for (const Between& y : places) {
+    const float *above = row_of(y.first), *below = row_of(y.first + 1);
+    for (const Between& x : places) {
+      const int left = x.first % period, right = (x.first + 1) % period;
+      *to++ += weight * std::lerp(std::lerp(above[left], above[right], x.part),
+                                  std::lerp(below[left], below[right], x.part), y.part);
     }
   }
 }

@@ -25,6 +25,8 @@ class Canvas {
   Texture texture(const char* name) const;
 
  private:
+  void add_noise(int period, uint64_t seed, float weight, std::vector<float>& sum) const;
+
   int side_;
   std::vector<glm::vec3> pixels_;
 };
