@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "omma/camera/ray_bundle.h"
-#include "omma/technique/raycast/embree_scene.h"
+#include "omma/oracle/embree_scene.h"
 #include "omma/technique/visibility/gpu_finder.h"
 #include "omma/visibility/find_blocks.h"
 #include "omma/visibility/finder.h"

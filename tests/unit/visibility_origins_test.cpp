@@ -7,7 +7,7 @@
 
 #include "omma/base/error.h"
 #include "omma/camera/ray_bundle.h"
-#include "omma/technique/raycast/embree_scene.h"
+#include "omma/oracle/embree_scene.h"
 #include "omma/visibility/find_blocks.h"
 #include "omma/visibility/finder.h"
 #include "tests/gpu/hand_made.h"

@@ -2,7 +2,7 @@
 
 #include "omma/camera/ray_bundle.h"
 #include "omma/technique/pass_cache.h"
-#include "omma/technique/raycast/embree_scene.h"
+#include "omma/oracle/embree_scene.h"
 #include "omma/technique/resolve.h"
 
 namespace omma {

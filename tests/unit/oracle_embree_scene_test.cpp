@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
-#include "omma/technique/raycast/embree_scene.h"
+#include "omma/oracle/embree_scene.h"
 
 namespace omma {
 namespace {

@@ -1,4 +1,4 @@
-#include "omma/technique/raycast/embree_scene.h"
+#include "omma/oracle/embree_scene.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/blocked_range2d.h>
