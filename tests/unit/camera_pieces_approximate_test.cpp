@@ -11,6 +11,7 @@
 #include "omma/camera/pieces/approximate.h"
 #include "omma/camera/pieces/places.h"
 #include "omma/camera/ray_bundle.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {
@@ -24,13 +25,15 @@ Camera sample(const LensModel& model) {
 
 class EveryLensInPieces : public testing::TestWithParam<const LensModel*> {};
 
-std::vector<const LensModel*> all_models() {
+std::vector<const LensModel*> models_of_today() {
   std::vector<const LensModel*> models;
-  for (const LensModel& model : lens_models()) models.push_back(&model);
+  for (size_t i = 0; i < lens_models().size(); ++i) {
+    if (is_proved_today(i)) models.push_back(&lens_models()[i]);
+  }
   return models;
 }
 
-INSTANTIATE_TEST_SUITE_P(Camera, EveryLensInPieces, testing::ValuesIn(all_models()),
+INSTANTIATE_TEST_SUITE_P(Camera, EveryLensInPieces, testing::ValuesIn(models_of_today()),
                          [](const auto& lens) { return std::string(lens.param->info.name); });
 
 // Lenses whose image ends where the world is stretched without bound or comes together in a point, or in a circle

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "omma/camera/camera.h"
+#include "tests/proof.h"
 
 namespace omma {
 
@@ -53,6 +54,16 @@ inline std::vector<SampleCamera> sample_cameras(const LensModel& model) {
   std::vector<SampleCamera> samples;
   for (const std::string& text : texts) samples.push_back({text, make_camera(text)});
   return samples;
+}
+
+/// One of them, or all in the full proof.
+inline std::vector<SampleCamera> sample_cameras_of_today(const LensModel& model) {
+  const std::vector<SampleCamera> all = sample_cameras(model);
+  std::vector<SampleCamera> of_today;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (is_proved_today(size_t(&model - lens_models().data()), i, all.size())) of_today.push_back(all[i]);
+  }
+  return of_today;
 }
 
 }  // namespace omma
