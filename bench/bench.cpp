@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/changing_camera.h"
 #include "bench/effects.h"
 #include "bench/image_based.h"
 #include "bench/nonlinear.h"
@@ -24,6 +25,8 @@ constexpr Benchmark list[] = {
      "the tree of rays that finds the visible triangles against Embree; growth with triangles; whole frames against "
      "every other technique",
      run_visibility, true},
+    {"changing-camera", "frames whose lens is another one each time against one that stands still; the cube map beside",
+     run_changing_camera, true},
     {"nonlinear", "bounding shapes and hybrid against cubes, hemicubes and a planar picture; where the time goes",
      run_nonlinear},
     {"subdivision", "triangles split, bounded, or projected by their vertices alone, against planar and the cube map",
