@@ -104,25 +104,6 @@ TEST(SeenTriangleTest, EdgeOnTheFindersDistanceStands) {
   EXPECT_NEAR(uv.y, 0.875, 1e-12);
 }
 
-TEST(SoftwareRendererTest, TilesAreOnePicture) {
-  const Scene scene = make_balls(glm::dvec3(0.0));
-  const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{70, 50});
-  SoftwareRenderer renderer(scene);
-  const auto whole = renderer.render(camera, glm::dmat4(1.0), all_but_color);
-  for (const int tile : {1, 7, 16, 33, 70}) {
-    SoftwareStats stats;
-    const auto parts = renderer.render(camera, glm::dmat4(1.0), all_but_color, {.tile = tile}, &stats);
-    EXPECT_EQ(stats.tiles, ((70 + tile - 1) / tile) * ((50 + tile - 1) / tile));
-    for (const auto& [channel, image] : whole) {
-      std::visit(
-          [&, c = channel](const auto& typed) {
-            EXPECT_EQ(std::get<std::decay_t<decltype(typed)>>(parts.at(c)).values, typed.values);
-          },
-          image);
-    }
-  }
-}
-
 TEST(SoftwareRendererTest, FollowsWhatMoves) {
   Scene scene = make_ball_and_pane();
   SoftwareRenderer renderer(scene);
@@ -149,7 +130,6 @@ TEST(SoftwareRendererTest, RefusesWhatItCannotDraw) {
   constexpr Channel color[] = {Channel::id, Channel::color}, id[] = {Channel::id};
   EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), color, {.samples = 0}), CommandError);
   EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), {}), CommandError);
-  EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), id, {.tile = -1}), CommandError);
   const Scene empty;
   SoftwareRenderer nothing(empty);
   const auto pictures = nothing.render(camera, glm::dmat4(1.0), id);

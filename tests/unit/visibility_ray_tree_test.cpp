@@ -1,7 +1,11 @@
 // The tree over a camera's rays: nothing lost, every cone around its rays.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "omma/camera/ray_bundle.h"
+#include "omma/visibility/camera_rays.h"
 #include "omma/visibility/cone_levels.h"
 #include "omma/visibility/ray_tree.h"
 #include "tests/unit/camera_samples.h"
@@ -28,9 +32,25 @@ bool near_its_pixel(const PixelGrid& grid, int column, int row, const glm::dvec3
          std::abs(glm::dot(glm::dvec3(grid.row), direction) / ahead - row) <= double(grid.row_error);
 }
 
-/// Every ray of the map is in the tree once, within its cones. Returns how many there are.
-size_t check(const RayMap& rays) {
-  const RayTree tree(rays);
+/// How far a ray is from the map's, pixels of the smaller side that its neighbours leave between them; single
+/// precision's last digit apart.
+double error_px(const RayMap& rays, int x, int y, const glm::vec3& ray) {
+  const auto at = [&](int column, int row) {
+    return rays.directions[size_t(row) * size_t(rays.size.width) + size_t(column)];
+  };
+  double spacing = 1.0;
+  for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)}) {
+    const int column = x + step.x, row = y + step.y;
+    if (column < 0 || row < 0 || column >= rays.size.width || row >= rays.size.height) continue;
+    if (at(column, row) == glm::vec3(0.0f)) continue;
+    spacing = std::min(spacing, glm::distance(glm::dvec3(at(column, row)), glm::dvec3(at(x, y))));
+  }
+  return std::max(0.0, glm::distance(glm::dvec3(ray), glm::dvec3(at(x, y))) - 1.5e-7) / spacing;
+}
+
+/// Every ray of the map is in the tree once, within its cones, and `accepted_px` from where the map has it. Returns how
+/// many there are.
+size_t check(const RayMap& rays, const RayTree& tree, double accepted_px = 0.0) {
   const ConeLevels above(tree);
   EXPECT_EQ(tree.size(), rays.size);
   EXPECT_LE(above.levels.back().count, ConeLevels::most_at_top);
@@ -50,7 +70,7 @@ size_t check(const RayMap& rays) {
         }
         const size_t pixel = size_t(y) * size_t(rays.size.width) + size_t(x);
         ++met[pixel];
-        wrong += d != rays.directions[pixel];
+        wrong += accepted_px == 0.0 ? d != rays.directions[pixel] : error_px(rays, x, y, d) > accepted_px;
         outside += !encloses(block.leaf_cone(leaf), d) || !encloses(block.cone, d);
         outside += !near_its_pixel(block.grid, x - block.pixel_x, y - block.pixel_y, d);
         size_t node = b * RayBlock::leaves + size_t(leaf);
@@ -68,9 +88,11 @@ size_t check(const RayMap& rays) {
   return count;
 }
 
+size_t check(const RayMap& rays) { return check(rays, RayTree(rays)); }
+
 TEST(RayTreeTest, ConesEncloseTheirRaysForEveryLens) {
   for (const LensModel& model : lens_models()) {
-    for (const auto& [text, camera] : sample_cameras(model)) {
+    for (const auto& [text, camera] : sample_cameras_of_today(model)) {
       SCOPED_TRACE(text);
       // A part of the image whose sides are no multiples of anything.
       const PixelRect part{camera.size().width / 3, camera.size().height / 3, camera.size().width - 37,
@@ -78,6 +100,64 @@ TEST(RayTreeTest, ConesEncloseTheirRaysForEveryLens) {
       EXPECT_GT(check(rays_of(camera, part)), 500u);
     }
   }
+}
+
+/// The camera with an image some 8,192 pixels long.
+Camera enlarged(const std::string& text, const Camera& camera) {
+  const ImageSize size = camera.size();
+  const int factor = 8192 / std::max(size.width, size.height);
+  return make_camera(text, ImageSize{size.width * factor, size.height * factor});
+}
+
+/// Parts of an image: in its middle, at two corners, and somewhere.
+std::vector<PixelRect> parts_of(ImageSize size, std::mt19937& random) {
+  constexpr int side = 40;
+  const glm::ivec2 last(size.width - side, size.height - side);
+  const glm::ivec2 somewhere(int(random() % unsigned(last.x)), int(random() % unsigned(last.y)));
+  std::vector<PixelRect> parts;
+  for (const glm::ivec2& corner : {glm::ivec2(0), last / 2, last, somewhere}) {
+    parts.push_back({corner.x, corner.y, corner.x + side, corner.y + side});
+  }
+  return parts;
+}
+
+/// True when a square of an image has a ray for each of its pixels.
+bool is_full(const RayMap& rays, const glm::ivec2& first) {
+  for (int y = first.y; y < std::min(first.y + RayBlock::side, rays.size.height); ++y) {
+    for (int x = first.x; x < std::min(first.x + RayBlock::side, rays.size.width); ++x) {
+      if (rays.directions[size_t(y) * size_t(rays.size.width) + size_t(x)] == glm::vec3(0.0f)) return false;
+    }
+  }
+  return true;
+}
+
+TEST(CameraRaysTest, AreTheFormulasForEveryLens) {
+  std::mt19937 random(5);
+  constexpr glm::dvec2 shift(0.375, -0.4375);
+  size_t count = 0, one_by_one = 0, squares = 0;
+  for (const LensModel& model : lens_models()) {
+    for (const auto& [text, small] : sample_cameras_of_today(model)) {
+      for (const Camera& camera : {small, enlarged(text, small)}) {
+        const bool is_large = camera.size().width > 2048 || camera.size().height > 2048;
+        for (const PixelRect& part : parts_of(camera.size(), random)) {
+          SCOPED_TRACE(fmt::format("{}, {} x {} from {}, {}", text, camera.size().width, camera.size().height, part.x0,
+                                   part.y0));
+          const auto patches = std::make_shared<const SquarePatches>(camera, part);
+          const RayMap expected = rays_of(camera, part, shift);
+          count += check(expected, RayTree(CameraRays(patches, {shift})), 1e-3);
+          if (!is_large) continue;
+          squares += patches->squares().size();
+          for (const SquarePatches::Square& square : patches->squares()) {
+            one_by_one += square.patch == SquarePatches::Square::exact && is_full(expected, square.first);
+          }
+        }
+        if (HasFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(count, full_proof() ? 1'000'000u : 150'000u);
+  // Observed: 0.06 to 0.11 in a day, next to jumps, folds, axes and the ends of images.
+  EXPECT_LT(double(one_by_one) / double(squares), 0.2);
 }
 
 TEST(RayTreeTest, PixelsLieOnAGridWhereTheLensBendsLittle) {

@@ -28,7 +28,7 @@ ChannelWriter::ChannelWriter(std::span<const SeenInstance> instances, const glm:
   find(Channel::material, material_);
 }
 
-void ChannelWriter::write(const RayBlock& block, const BlockPicture& picture, glm::ivec2 corner) const {
+void ChannelWriter::write(const RayBlock& block, const BlockPicture& picture) const {
   // Neighbours mostly see the same triangle.
   uint32_t last = meets_nothing;
   std::optional<SeenTriangle> triangle;
@@ -36,8 +36,8 @@ void ChannelWriter::write(const RayBlock& block, const BlockPicture& picture, gl
     for (int ray = 0; ray < 16; ++ray) {
       const uint32_t id = picture.triangle[leaf][ray];
       if (id == meets_nothing) continue;
-      const int x = corner.x + block.pixel_x + RayBlock::x_of(leaf, ray);
-      const int y = corner.y + block.pixel_y + RayBlock::y_of(leaf, ray);
+      const int x = block.pixel_x + RayBlock::x_of(leaf, ray);
+      const int y = block.pixel_y + RayBlock::y_of(leaf, ray);
       const SeenInstance& instance = instances_[picture.instance[leaf][ray]];
       if (id_) *id_->at(x, y) = int32_t(id);
       if (object_) *object_->at(x, y) = instance.object;

@@ -23,9 +23,8 @@ class ChannelWriter {
   ChannelWriter(std::span<const SeenInstance> instances, const glm::dmat4& worldFromCamera,
                 std::map<Channel, Image>& images);
 
-  /// What the rays of a block meet; `corner`: the pixel of the images at which the blocks' first begins. Several
-  /// threads may write blocks at once.
-  void write(const RayBlock& block, const BlockPicture& picture, glm::ivec2 corner) const;
+  /// What the rays of a block meet. Several threads may write blocks at once.
+  void write(const RayBlock& block, const BlockPicture& picture) const;
 
  private:
   bool needs_point() const { return distance_ || z_ || normal_ || position_ || uv_; }

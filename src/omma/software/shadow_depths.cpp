@@ -1,18 +1,15 @@
 #include "omma/software/shadow_depths.h"
 
-#include "omma/math/tiles.h"
-
 namespace omma {
 namespace {
 
 /// The depths of a block's rays, at its place in a map of `size` texels a side.
-void write(const RayBlock& block, const BlockPicture& picture, const PixelRect& tile, bool flat, int size,
-           float* depths) {
+void write(const RayBlock& block, const BlockPicture& picture, bool flat, int size, float* depths) {
   for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
     for (int ray = 0; ray < 16; ++ray) {
       if ((block.rays[leaf] >> ray & 1) == 0) continue;
-      const int x = tile.x0 + block.pixel_x + RayBlock::x_of(leaf, ray);
-      const int y = tile.y0 + block.pixel_y + RayBlock::y_of(leaf, ray);
+      const int x = block.pixel_x + RayBlock::x_of(leaf, ray);
+      const int y = block.pixel_y + RayBlock::y_of(leaf, ray);
       const float ahead = flat ? -block.z[leaf][ray] : 1.0f;
       depths[size_t(y) * size_t(size) + size_t(x)] = ShadowDepths::near * picture.inverse_distance[leaf][ray] / ahead;
     }
@@ -21,7 +18,7 @@ void write(const RayBlock& block, const BlockPicture& picture, const PixelRect& 
 
 }  // namespace
 
-void ShadowDepths::use(const Scene& scene, Shadows kind, int size, Finder& finder, RayTrees& ray_trees) {
+void ShadowDepths::use(const Scene& scene, Shadows kind, int size, Finder& finder, RecentPatches& patches) {
   if (kind == kind_ && size == size_) return;
   kind_ = Shadows::off;
   layers_ = plan_shadow_layers(lights_of(scene), boxes_of_triangles(scene), kind, size);
@@ -30,12 +27,10 @@ void ShadowDepths::use(const Scene& scene, Shadows kind, int size, Finder& finde
   for (size_t i = 0; i < layers_.size(); ++i) {
     const ShadowLayer& layer = layers_[i];
     finder.set_view(layer.worldFromMap);
-    for (const PixelRect& tile : tiles_of(layer.camera.size(), RayTrees::good_tile(1))) {
-      finder.each_block(ray_trees.of_tile(layer.camera, tile, {glm::dvec2(0.0)}), Solid::labels,
-                        [&](const RayBlock& block, const BlockPicture& picture) {
-                          write(block, picture, tile, layer.flat(), size, &depths_[i * texels]);
-                        });
-    }
+    const CameraRays rays(patches.of(layer.camera), {glm::dvec2(0.0)});
+    finder.each_block(rays, Solid::labels, [&](const RayBlock& block, const BlockPicture& picture) {
+      write(block, picture, layer.flat(), size, &depths_[i * texels]);
+    });
   }
   kind_ = kind;
   size_ = size;

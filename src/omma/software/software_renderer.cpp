@@ -9,7 +9,6 @@
 
 #include "omma/base/error.h"
 #include "omma/camera/sampling_pattern.h"
-#include "omma/math/tiles.h"
 #include "omma/software/channel_writer.h"
 #include "omma/software/shade_fragments.h"
 
@@ -79,7 +78,7 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   }
   watch.add_to("prepare");
   if (options.shadows != Shadows::off) {
-    shadow_depths_.use(*scene_, options.shadows, options.shadow_size, finder_, ray_trees_);
+    shadow_depths_.use(*scene_, options.shadows, options.shadow_size, finder_, patches_);
     shaded.shadow_maps =
         shadow_map_records(shadow_depths_.layers(), worldFromCamera, ShadowDepths::near, shaded.lights);
     shaded.shadow_depths = shadow_depths_.depths().data();
@@ -96,26 +95,20 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   tbb::enumerable_thread_specific<Fragments> scratch([&] { return Fragments(instances); });
   const std::vector<glm::dvec2> pattern = sampling_pattern(options.samples);
   const size_t samples = pattern.size();
-  const std::vector<PixelRect> tiles =
-      tiles_of(camera.size(), options.tile > 0 ? options.tile : RayTrees::good_tile(std::min(samples, most_samples)));
+  const std::shared_ptr<const SquarePatches> patches = patches_.of(camera);
+  watch.add_to("patches");
   for (size_t first = 0; first < samples; first += most_samples, ++stats.passes) {
     const size_t count = std::min(most_samples, samples - first);
     const float share = float(count) / float(samples);
-    const std::vector<glm::dvec2> shifts(pattern.begin() + ptrdiff_t(first),
-                                         pattern.begin() + ptrdiff_t(first + count));
-    for (const PixelRect& tile : tiles) {
-      const RayTree& rays = ray_trees_.of_tile(camera, tile, shifts);
-      watch.add_to("ray tree");
-      finder_.each_square(rays, [&](std::span<const FoundBlock> found) {
-        Fragments& fragments = scratch.local();
-        fragments.collect(found);
-        const RayBlock& block = *found.front().block;
-        shade_fragments(shaded, block, *found.front().border, fragments);
-        fragments.resolve(share, first == 0, image, {tile.x0 + block.pixel_x, tile.y0 + block.pixel_y});
-      });
-      watch.add_to("find and shade");
-    }
-    stats.tiles += first == 0 ? int(tiles.size()) : 0;
+    const CameraRays rays(patches, {pattern.begin() + ptrdiff_t(first), pattern.begin() + ptrdiff_t(first + count)});
+    finder_.each_square(rays, [&](std::span<const FoundBlock> found) {
+      Fragments& fragments = scratch.local();
+      fragments.collect(found);
+      const RayBlock& block = *found.front().block;
+      shade_fragments(shaded, block, *found.front().border, fragments);
+      fragments.resolve(share, first == 0, image, {block.pixel_x, block.pixel_y});
+    });
+    watch.add_to("find and shade");
   }
   for (const Fragments& fragments : scratch) stats.fragments += fragments.surfaces();
 }
@@ -134,8 +127,7 @@ const Surroundings& SoftwareRenderer::surroundings_of(const SoftwareOptions& opt
                               .anisotropic = false,
                               .background = key.background,
                               .shadows = key.shadows,
-                              .shadow_size = key.shadow_size,
-                              .tile = options.tile};
+                              .shadow_size = key.shadow_size};
   std::array<FloatImage, 2> maps;
   for (size_t side = 0; side < maps.size(); ++side) {
     SoftwareStats stats;
@@ -146,22 +138,18 @@ const Surroundings& SoftwareRenderer::surroundings_of(const SoftwareOptions& opt
   return surroundings_.emplace(layers, maps);
 }
 
-void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, int tile,
+void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera,
                                      std::map<Channel, Image>& images, SoftwareStats& stats) {
   Stopwatch watch(stats);
   finder_.set_view(worldFromCamera);
   watch.add_to("place");
   const std::vector<SeenInstance> instances = seen_instances(*scene_, glm::inverse(worldFromCamera));
   const ChannelWriter writer(instances, worldFromCamera, images);
-  for (const PixelRect& part : tiles_of(camera.size(), tile > 0 ? tile : RayTrees::good_tile(1))) {
-    const RayTree& rays = ray_trees_.of_tile(camera, part, {glm::dvec2(0.0)});
-    watch.add_to("ray tree");
-    finder_.each_block(rays, Solid::labels, [&](const RayBlock& block, const BlockPicture& picture) {
-      writer.write(block, picture, {part.x0, part.y0});
-    });
-    watch.add_to("find");
-    ++stats.tiles;
-  }
+  const CameraRays rays(patches_.of(camera), {glm::dvec2(0.0)});
+  watch.add_to("patches");
+  finder_.each_block(rays, Solid::labels,
+                     [&](const RayBlock& block, const BlockPicture& picture) { writer.write(block, picture); });
+  watch.add_to("find");
 }
 
 std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const glm::dmat4& worldFromCamera,
@@ -170,7 +158,6 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
   if (wanted.empty()) throw CommandError("no channel is asked for");
   if (options.samples < 1) throw CommandError("{} samples per pixel; 1 or more make a picture", options.samples);
   check_effects(options.effects);
-  if (options.tile < 0) throw CommandError("a tile of {} pixels; 1 or more make one", options.tile);
   SoftwareStats took;
   std::map<Channel, Image> images;
   for (const Channel channel : wanted) images.emplace(channel, make_image(channel_info(channel), camera.size()));
@@ -179,10 +166,9 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
     draw_color(camera, worldFromCamera, options, std::nullopt, std::get<FloatImage>(color->second), took);
   }
   if (images.size() > (color != images.end() ? 1u : 0u)) {
-    took.tiles = 0;
-    draw_channels(camera, worldFromCamera, options.tile, images, took);
+    draw_channels(camera, worldFromCamera, images, took);
   }
-  took.bytes = finder_.bytes() + ray_trees_.bytes() + shadow_depths_.depths().size() * sizeof(float);
+  took.bytes = finder_.bytes() + patches_.bytes() + shadow_depths_.depths().size() * sizeof(float);
   for (const MipTexture& texture : textures_) took.bytes += texture.bytes();
   if (surroundings_) took.bytes += surroundings_->bytes();
   if (stats != nullptr) *stats = took;

@@ -17,9 +17,9 @@
 #include "omma/scene/scene.h"
 #include "omma/shading/effects.h"
 #include "omma/software/mip_texture.h"
-#include "omma/software/ray_trees.h"
 #include "omma/software/shadow_depths.h"
 #include "omma/software/surroundings.h"
+#include "omma/visibility/camera_rays.h"
 #include "omma/visibility/finder.h"
 
 namespace omma {
@@ -34,17 +34,14 @@ struct SoftwareOptions {
   int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
   std::optional<int> reflect{};  ///< the object whose surfaces show what surrounds it
   int reflection_size = 512;     ///< texels along each of its two maps, 16 or more
-  /// Pixels along the side of what is drawn at once, 0 for a good number. It bounds the memory, not the picture.
-  int tile = 0;
 };
 
 /// What a picture took.
 struct SoftwareStats {
   std::vector<std::pair<std::string, double>> stage_ms;  ///< wall clock
-  int tiles = 0;
-  int passes = 0;          ///< of colour
-  uint64_t fragments = 0;  ///< that were shaded, the background's apart
-  size_t bytes = 0;        ///< of the finder, its rays and the textures; not of the pictures
+  int passes = 0;                                        ///< of colour
+  uint64_t fragments = 0;                                ///< that were shaded, the background's apart
+  size_t bytes = 0;  ///< of the finder, its cameras and the textures; not of the pictures
 };
 
 class SoftwareRenderer {
@@ -61,9 +58,8 @@ class SoftwareRenderer {
 
   /// The image of every channel asked for, of the camera's size: colour linear, lengths in metres, `normal` and
   /// `position` in the world's frame, what channels() says where nothing is. `worldFromCamera` is rigid. Runs on all
-  /// cores; the result is the same on any number of them. Throws CommandError for no channel, no sample, a negative
-  /// tile, effects that check_effects refuses and an object that is not there, MachineError for textures and maps too
-  /// large.
+  /// cores; the result is the same on any number of them. Throws CommandError for no channel, no sample, a effects that
+  /// check_effects refuses and an object that is not there, MachineError for textures and maps too large.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const SoftwareOptions& options = {},
                                   SoftwareStats* stats = nullptr);
@@ -75,13 +71,13 @@ class SoftwareRenderer {
                   std::optional<int> hidden_object, FloatImage& image, SoftwareStats& stats);
   /// What surrounds options.reflect, drawn where it is not there.
   const Surroundings& surroundings_of(const SoftwareOptions& options);
-  void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, int tile,
-                     std::map<Channel, Image>& images, SoftwareStats& stats);
+  void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, std::map<Channel, Image>& images,
+                     SoftwareStats& stats);
 
   const Scene* scene_;
   Finder finder_;
   std::vector<MipTexture> textures_;
-  RayTrees ray_trees_;
+  RecentPatches patches_;
   ShadowDepths shadow_depths_;
   /// What surroundings depend on beside the scene.
   struct SurroundingsKey {

@@ -1,7 +1,7 @@
 // What is derived from a pass's rays and kept: a sequence asks for the same ones again and again.
 #pragma once
 
-#include "omma/technique/recent_cache.h"
+#include "omma/base/recent_cache.h"
 #include "omma/technique/view.h"
 
 namespace omma {

@@ -93,13 +93,12 @@ std::map<Channel, Image> Renderer::Parts::render_without_gl(const Camera& camera
                             .shadows = options.shadows,
                             .shadow_size = options.shadow_size,
                             .reflect = options.reflect,
-                            .reflection_size = options.reflection_size,
-                            .tile = options.tile};
+                            .reflection_size = options.reflection_size};
   auto pictures = software->render(camera, worldFromCamera, wanted, how, &took);
   stats.renderer =
       fmt::format("the processor ({}, {} threads)", simd_targets().front(), std::thread::hardware_concurrency());
   stats.buffer_bytes = took.bytes;
-  stats.tiles = took.tiles;
+  stats.tiles = 1;
   stats.passes = took.passes;
   stats.samples_kept = took.fragments;
   if (took.passes > 0) stats.fragments_shaded = took.fragments;

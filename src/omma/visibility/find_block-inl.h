@@ -45,7 +45,7 @@ class BlockFinder {
       farthest_[leaf] = least(load(picture.inverse_distance[leaf]));
     }
     farthest_of_block_ = least(load(farthest_));
-    if (top.nodes.empty()) return;
+    if (top.nodes.empty() || block.leaf_mask == 0) return;
     pending_.clear();
     push_children(top.nodes[0], query_.scene->top_frame());
     while (!pending_.empty()) {

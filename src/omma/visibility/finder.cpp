@@ -1,5 +1,6 @@
 #include "omma/visibility/finder.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -39,53 +40,62 @@ void each_blank_row(const RayTree& rays, const Each& each) {
   });
 }
 
-void find(const RayTree& rays, const BlockQuery& query, const BlockSource& source, const BlockSink& sink) {
-  const std::span<const RayBlock> blocks(rays.blocks());
-  const std::span<const BlockOrigins> origins(rays.origins());
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, blocks.size(), blocks_at_once),
-                    [&](const tbb::blocked_range<size_t>& range) {
-                      const size_t first = range.begin(), count = range.size();
-                      find_blocks(query, blocks.subspan(first, count),
-                                  origins.empty() ? origins : origins.subspan(first, count), source, sink);
-                    });
+/// Calls `each(squares)`, on several threads at once, for some of the rays after the others.
+template <typename Each>
+void each_squares(const RaySource& rays, const Each& each) {
+  const auto samples = size_t(rays.samples());
+  tbb::enumerable_thread_specific<RayRoom> rooms;
+  const size_t at_once = std::max<size_t>(1, blocks_at_once / samples);
+  tbb::parallel_for(
+      tbb::blocked_range<size_t>(0, rays.squares(), at_once),
+      [&](const tbb::blocked_range<size_t>& range) { each(rays.some(range.begin(), range.size(), rooms.local())); });
+}
+
+void find(const RaySource& rays, const BlockQuery& query, const BlockSource& source, const BlockSink& sink) {
+  each_squares(rays, [&](const RaySquares& some) { find_blocks(query, some.blocks, some.origins, source, sink); });
 }
 
 }  // namespace
 
-void Finder::each_block(const RayTree& rays, Solid solid,
+void Finder::each_block(const RaySource& rays, Solid solid,
                         const std::function<void(const RayBlock&, const BlockPicture&)>& each) const {
   const BlockQuery query{.scene = &scene_, .solid = solid};
-  find(rays, query, {},
-       [&](const RayBlock& block, const BlockPicture& picture, std::span<const BlockLayer>) { each(block, picture); });
+  find(rays, query, {}, [&](const RayBlock& block, const BlockPicture& picture, std::span<const BlockLayer>) {
+    if (block.leaf_mask != 0) each(block, picture);
+  });
 }
 
-void Finder::each_square(const RayTree& rays, const std::function<void(std::span<const FoundBlock>)>& each) const {
+void Finder::each_square(const RaySource& rays, const std::function<void(std::span<const FoundBlock>)>& each) const {
   const auto samples = size_t(rays.samples());
-  const size_t squares = rays.blocks().size() / samples, at_once = std::max<size_t>(1, blocks_at_once / samples);
   const BlockQuery opaque{.scene = &scene_}, blended{.scene = &scene_, .collect = true};
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, squares, at_once), [&](const tbb::blocked_range<size_t>& range) {
-    const std::span<const RayBlock> blocks =
-        std::span(rays.blocks()).subspan(range.begin() * samples, range.size() * samples);
-    const std::span<const BlockOrigins> origins =
-        rays.origins().empty() ? std::span(rays.origins())
-                               : std::span(rays.origins()).subspan(range.begin() * samples, blocks.size());
-    std::vector<FoundBlock> found(blocks.size());
-    const auto found_of = [&](const RayBlock& block) -> FoundBlock& { return found[size_t(&block - blocks.data())]; };
-    find_blocks(opaque, blocks, origins, {},
+  tbb::enumerable_thread_specific<std::vector<FoundBlock>> rooms;
+  each_squares(rays, [&](const RaySquares& some) {
+    std::vector<FoundBlock>& room = rooms.local();
+    if (room.size() < some.blocks.size()) room.resize(some.blocks.size());
+    const std::span<FoundBlock> found(room.data(), some.blocks.size());
+    const auto found_of = [&](const RayBlock& block) -> FoundBlock& {
+      return found[size_t(&block - some.blocks.data())];
+    };
+    find_blocks(opaque, some.blocks, some.origins, {},
                 [&](const RayBlock& block, const BlockPicture& picture, std::span<const BlockLayer>) {
                   found_of(block).block = &block;
                   found_of(block).picture = picture;
+                  found_of(block).layers.clear();
                 });
     if (scene_.has_blending()) {
       find_blocks(
-          blended, blocks, origins,
+          blended, some.blocks, some.origins,
           [&](const RayBlock& block, BlockPicture& picture) { picture = found_of(block).picture; },
           [&](const RayBlock& block, const BlockPicture&, std::span<const BlockLayer> layers) {
             found_of(block).layers.assign(layers.begin(), layers.end());
           });
     }
-    for (size_t i = 0; i < found.size(); ++i) found[i].border = &rays.borders()[range.begin() + i / samples];
-    for (size_t i = 0; i < found.size(); i += samples) each(std::span(found).subspan(i, samples));
+    for (size_t i = 0; i < found.size(); i += samples) {
+      const std::span<FoundBlock> square = found.subspan(i, samples);
+      for (FoundBlock& sample : square) sample.border = &some.borders[i / samples];
+      const auto has_rays = [](const FoundBlock& sample) { return sample.block->leaf_mask != 0; };
+      if (std::ranges::any_of(square, has_rays)) each(square);
+    }
   });
 }
 

@@ -46,12 +46,12 @@ class Finder {
                std::span<float> distances = {}) const;
 
   /// Calls `each`, on several threads at once, for every block in which there is a ray, with what its rays meet.
-  void each_block(const RayTree& rays, Solid solid,
+  void each_block(const RaySource& rays, Solid solid,
                   const std::function<void(const RayBlock&, const BlockPicture&)>& each) const;
 
   /// Calls `each`, on several threads at once, for every square of pixels in which there is a ray, with a block for
   /// each of its samples, blended surfaces apart from the others. Runs on all cores.
-  void each_square(const RayTree& rays, const std::function<void(std::span<const FoundBlock>)>& each) const;
+  void each_square(const RaySource& rays, const std::function<void(std::span<const FoundBlock>)>& each) const;
 
   /// All blended surfaces nearer than `distances` on each ray, nearest first.
   std::vector<std::vector<RayHit>> blended(const RayTree& rays, std::span<const float> distances) const;

@@ -1,5 +1,6 @@
 #include "omma/visibility/ray_tree.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -7,46 +8,13 @@
 #include <limits>
 
 #include "omma/base/error.h"
+#include "omma/visibility/make_blocks.h"
 
 namespace omma {
 namespace {
 
-/// Cones are this much wider, radians: more than what single precision takes off a dot product of unit vectors.
+/// What a radius is widened by, relatively: more than single precision takes off it.
 constexpr double slack = 2e-6;
-constexpr double widest_cos = 0.17;
-
-/// Around `count` directions, of which some may be zero.
-class ConeFitter {
- public:
-  void add(const glm::vec3& direction) { sum_ += glm::dvec3(direction); }
-  /// The axis is known once all directions have been added; then each widens the cone.
-  void fix_axis() {
-    const double length = glm::length(sum_);
-    axis_ = length > 1e-3 ? glm::vec3(sum_ / length) : glm::vec3(0.0f);
-  }
-  void widen(const glm::vec3& direction) {
-    if (direction == glm::vec3(0.0f)) return;
-    const glm::dvec3 axis(axis_), d(direction);
-    if (glm::dot(axis, d) < widest_cos) wide_ = true;
-    sin_ = std::max(sin_, glm::length(glm::cross(axis, d)));
-  }
-  Cone cone() const {
-    if (wide_) return {};
-    const double angle = std::asin(std::min(1.0, sin_)) + slack;
-    return {axis_, float(std::sin(angle)), float(std::cos(angle))};
-  }
-
- private:
-  glm::dvec3 sum_{0.0};
-  glm::vec3 axis_{0.0f};
-  double sin_ = 0.0;
-  bool wide_ = false;
-};
-
-template <typename Each>
-void each_ray(const RayBlock& block, int leaf, const Each& each) {
-  for (int ray = 0; ray < 16; ++ray) each({block.x[leaf][ray], block.y[leaf][ray], block.z[leaf][ray]});
-}
 
 /// Zero beyond the image.
 glm::vec3 direction_at(const RayMap& rays, int x, int y) {
@@ -54,41 +22,16 @@ glm::vec3 direction_at(const RayMap& rays, int x, int y) {
   return inside ? rays.directions[size_t(y) * size_t(rays.size.width) + size_t(x)] : glm::vec3(0.0f);
 }
 
-/// False when there is no ray.
-bool fill(const RayMap& rays, RayBlock& block) {
-  block.leaf_mask = 0;
-  ConeFitter whole;
+void take_rays(const RayMap& rays, RayBlock& block) {
   for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
-    ConeFitter part;
-    block.rays[leaf] = 0;
     for (int ray = 0; ray < 16; ++ray) {
       const glm::vec3 d =
           direction_at(rays, block.pixel_x + RayBlock::x_of(leaf, ray), block.pixel_y + RayBlock::y_of(leaf, ray));
       block.x[leaf][ray] = d.x;
       block.y[leaf][ray] = d.y;
       block.z[leaf][ray] = d.z;
-      if (d != glm::vec3(0.0f)) block.rays[leaf] = uint16_t(block.rays[leaf] | 1u << ray);
-      part.add(d);
-      whole.add(d);
     }
-    if (block.rays[leaf] != 0) block.leaf_mask |= 1u << leaf;
-    part.fix_axis();
-    each_ray(block, leaf, [&](const glm::vec3& d) { part.widen(d); });
-    const Cone cone = part.cone();
-    block.axis_x[leaf] = cone.axis.x;
-    block.axis_y[leaf] = cone.axis.y;
-    block.axis_z[leaf] = cone.axis.z;
-    block.sin[leaf] = cone.sin;
-    block.cos[leaf] = cone.cos;
   }
-  if (block.leaf_mask == 0) return false;
-  whole.fix_axis();
-  for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
-    each_ray(block, leaf, [&](const glm::vec3& d) { whole.widen(d); });
-  }
-  block.cone = whole.cone();
-  block.grid = fit_pixel_grid(block);
-  return true;
 }
 
 SquareBorder border_of(const RayMap& rays, const RayBlock& block) {
@@ -167,47 +110,84 @@ uint64_t interleaved(int x, int y) {
 
 }  // namespace
 
-RayTree::RayTree(const RayMap& rays, std::span<const glm::vec3> origins) : RayTree(std::span(&rays, 1)) {
-  check(rays, origins);
-  if (origins.empty()) return;
-  origins_.resize(blocks_.size());
-  tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t i) { fill(rays.size, origins, blocks_[i], origins_[i]); });
+std::vector<glm::ivec2> squares_of(ImageSize size) {
+  const int across = (size.width + RayBlock::side - 1) / RayBlock::side;
+  const int down = (size.height + RayBlock::side - 1) / RayBlock::side;
+  // Squares that are done one after another see the same triangles, while these are still in the processor's caches.
+  std::vector<std::pair<uint64_t, glm::ivec2>> places;
+  for (int y = 0; y < down; ++y) {
+    for (int x = 0; x < across; ++x) places.emplace_back(interleaved(x, y), glm::ivec2(x, y) * RayBlock::side);
+  }
+  std::ranges::sort(places, {}, &std::pair<uint64_t, glm::ivec2>::first);
+  std::vector<glm::ivec2> squares;
+  for (const auto& [number, place] : places) squares.push_back(place);
+  return squares;
 }
 
-RayTree::RayTree(std::span<const RayMap> samples) : size_(samples.front().size), samples_(int(samples.size())) {
-  const int across = (size_.width + RayBlock::side - 1) / RayBlock::side;
-  const int down = (size_.height + RayBlock::side - 1) / RayBlock::side;
-  std::vector<glm::ivec2> places;
-  for (int y = 0; y < down; ++y) {
-    for (int x = 0; x < across; ++x) places.emplace_back(x, y);
-  }
-  // Blocks that are done one after another see the same triangles, while these are still in the processor's caches.
-  std::sort(places.begin(), places.end(),
-            [](const glm::ivec2& a, const glm::ivec2& b) { return interleaved(a.x, a.y) < interleaved(b.x, b.y); });
-  const size_t count = samples.size();
-  blocks_.resize(places.size() * count);
+RayTree::RayTree(const RayMap& rays, std::span<const glm::vec3> origins) : size_(rays.size) {
+  check(rays, origins);
+  const std::vector<glm::ivec2> places = squares_of(size_);
+  blocks_.resize(places.size());
   std::vector<char> filled(places.size());
   tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
-    for (size_t s = 0; s < count; ++s) {
-      RayBlock& block = blocks_[i * count + s];
-      block.pixel_x = places[i].x * RayBlock::side;
-      block.pixel_y = places[i].y * RayBlock::side;
-      filled[i] |= char(fill(samples[s], block));
+    blocks_[i].pixel_x = places[i].x;
+    blocks_[i].pixel_y = places[i].y;
+    take_rays(rays, blocks_[i]);
+    filled[i] = char(finish_block(blocks_[i]));
+  });
+  keep(filled);
+  borders_.resize(blocks_.size());
+  origins_.resize(origins.empty() ? 0 : blocks_.size());
+  tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t i) {
+    borders_[i] = border_of(rays, blocks_[i]);
+    if (!origins.empty()) fill(rays.size, origins, blocks_[i], origins_[i]);
+  });
+}
+
+RayTree::RayTree(const RaySource& source) : size_(source.size()), samples_(source.samples()) {
+  const size_t squares = source.squares(), count = size_t(samples_);
+  blocks_.resize(squares * count);
+  borders_.resize(squares);
+  std::vector<char> filled(squares);
+  constexpr size_t at_once = 16;
+  tbb::enumerable_thread_specific<RayRoom> rooms;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, squares, at_once), [&](const tbb::blocked_range<size_t>& range) {
+    const RaySquares made = source.some(range.begin(), range.size(), rooms.local());
+    std::ranges::copy(made.blocks, blocks_.begin() + ptrdiff_t(range.begin() * count));
+    std::ranges::copy(made.borders, borders_.begin() + ptrdiff_t(range.begin()));
+    for (size_t i = 0; i < made.blocks.size(); ++i) {
+      filled[range.begin() + i / count] |= char(made.blocks[i].leaf_mask != 0);
     }
   });
+  keep(filled);
+}
+
+/// Only the squares that are `filled`.
+void RayTree::keep(std::span<const char> filled) {
+  const auto count = size_t(samples_);
   size_t kept = 0;
-  for (size_t i = 0; i < places.size(); ++i) {
-    if (filled[i]) {
-      std::copy_n(blocks_.begin() + ptrdiff_t(i * count), count, blocks_.begin() + ptrdiff_t(kept));
-      kept += count;
-    } else {
-      blank_.push_back(places[i] * RayBlock::side);
+  for (size_t i = 0; i < filled.size(); ++i) {
+    const RayBlock& first = blocks_[i * count];
+    if (!filled[i]) {
+      blank_.emplace_back(first.pixel_x, first.pixel_y);
+      continue;
     }
+    std::copy_n(blocks_.begin() + ptrdiff_t(i * count), count, blocks_.begin() + ptrdiff_t(kept * count));
+    if (!borders_.empty()) borders_[kept] = borders_[i];
+    ++kept;
   }
-  blocks_.resize(kept);
-  borders_.resize(kept / count);
-  tbb::parallel_for(size_t{0}, borders_.size(),
-                    [&](size_t i) { borders_[i] = border_of(samples.front(), blocks_[i * count]); });
+  blocks_.resize(kept * count);
+  if (!borders_.empty()) borders_.resize(kept);
+}
+
+RaySquares RayTree::some(size_t first, size_t count, RayRoom&) const {
+  const auto samples = size_t(samples_);
+  const auto part = [&](const auto& of_blocks) {
+    return std::span(of_blocks).subspan(first * samples, count * samples);
+  };
+  RaySquares squares{part(blocks_), std::span(borders_).subspan(first, count)};
+  if (!origins_.empty()) squares.origins = part(origins_);
+  return squares;
 }
 
 }  // namespace omma

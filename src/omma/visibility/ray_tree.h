@@ -1,60 +1,20 @@
-// The rays of an image as a tree: blocks of 16 x 16 pixels, leaves of 4 x 4, and for each the cone that encloses its
-// rays. It knows no camera's formula, so it serves every camera.
+// The rays of an image as a tree, kept in memory: blocks of 16 x 16 pixels, leaves of 4 x 4, and for each the cone that
+// encloses its rays.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
 #include "omma/camera/camera.h"
-#include "omma/visibility/pixel_grid.h"
+#include "omma/visibility/ray_source.h"
 
 namespace omma {
 
-/// All directions d of unit length with d · axis >= cos, where the angle is less than 80°. A wider cone is everything:
-/// axis 0, sin 1, cos 0.
-struct Cone {
-  glm::vec3 axis{0.0f};  ///< unit length, or zero
-  float sin = 1.0f, cos = 0.0f;
-};
+/// The first pixels of the squares that cover an image, neighbours near to each other.
+std::vector<glm::ivec2> squares_of(ImageSize size);
 
-/// 16 x 16 pixels: sixteen leaves of sixteen rays. Leaves and the rays of a leaf go row by row.
-struct alignas(64) RayBlock {
-  static constexpr int leaf_side = 4, leaves = 16, side = 16;
-
-  float x[leaves][16], y[leaves][16], z[leaves][16];  ///< directions in the camera frame; zero for no ray
-  float axis_x[leaves], axis_y[leaves], axis_z[leaves], sin[leaves], cos[leaves];  ///< the leaves' cones
-  Cone cone;                                                                       ///< of all rays
-  PixelGrid grid;
-  uint32_t leaf_mask;     ///< leaves that have a ray
-  uint16_t rays[leaves];  ///< of each leaf: those that are rays
-  int pixel_x, pixel_y;   ///< of the first ray
-
-  Cone leaf_cone(int leaf) const { return {{axis_x[leaf], axis_y[leaf], axis_z[leaf]}, sin[leaf], cos[leaf]}; }
-  static int x_of(int leaf, int ray) { return leaf % 4 * leaf_side + ray % leaf_side; }
-  static int y_of(int leaf, int ray) { return leaf / 4 * leaf_side + ray / leaf_side; }
-};
-
-/// The rays around a square of pixels: what tells how rays change from pixel to pixel at its border. Zero for no ray.
-struct SquareBorder {
-  enum Side { left, right, above, below };
-  float x[4][RayBlock::side], y[4][RayBlock::side], z[4][RayBlock::side];  ///< by side; from the top or from the left
-};
-
-/// Where the rays of a block begin, metres in the camera frame. The block sees the scene from its apex, in the middle
-/// of its rays' beginnings; they lie within `radius` of it.
-struct alignas(64) BlockOrigins {
-  float x[RayBlock::leaves][16], y[RayBlock::leaves][16], z[RayBlock::leaves][16];  ///< from the apex
-  float moment_x[RayBlock::leaves][16], moment_y[RayBlock::leaves][16],
-      moment_z[RayBlock::leaves][16];  ///< x × direction
-  float along[RayBlock::leaves][16];   ///< x · direction
-  glm::vec3 apex;
-  float radius;
-};
-
-class RayTree {
+class RayTree final : public RaySource {
  public:
   RayTree() = default;
   /// Directions of unit length, or zero for no ray. Rays begin at the camera's centre, or, as those of omnidirectional
@@ -62,13 +22,13 @@ class RayTree {
   /// near each other are found soonest. Throws CommandError for origins that are not as many or not finite. Runs on all
   /// cores.
   explicit RayTree(const RayMap& rays, std::span<const glm::vec3> origins = {});
-  /// Several rays a pixel, as many as `samples`, all of one size; a square of pixels has a block for each, one after
-  /// another.
-  explicit RayTree(std::span<const RayMap> samples);
+  /// Everything that the source has, which has no origins. Runs on all cores.
+  explicit RayTree(const RaySource& source);
 
-  ImageSize size() const { return size_; }
-  /// Rays a pixel.
-  int samples() const { return samples_; }
+  ImageSize size() const override { return size_; }
+  int samples() const override { return samples_; }
+  size_t squares() const override { return borders_.size(); }
+  RaySquares some(size_t first, size_t count, RayRoom& room) const override;
   /// Those of the squares in which there is a ray, neighbours near to each other.
   const std::vector<RayBlock>& blocks() const { return blocks_; }
   /// By squares: around the first sample's rays.
@@ -83,6 +43,8 @@ class RayTree {
   }
 
  private:
+  void keep(std::span<const char> filled);
+
   ImageSize size_;
   int samples_ = 1;
   std::vector<RayBlock> blocks_;

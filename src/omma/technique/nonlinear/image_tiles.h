@@ -2,7 +2,7 @@
 #pragma once
 
 #include "omma/technique/nonlinear/image_squares.h"
-#include "omma/technique/recent_cache.h"
+#include "omma/base/recent_cache.h"
 #include "omma/technique/replication/cone_tree.h"
 #include "omma/technique/view.h"
 

@@ -1,8 +1,8 @@
-#include "omma/camera/ray_bundle.h"
 #include "omma/technique/pass_cache.h"
 #include "omma/technique/resolve.h"
 #include "omma/technique/visibility/gpu_finder.h"
 #include "omma/technique/visibility/visibility.h"
+#include "omma/visibility/camera_rays.h"
 
 namespace omma {
 namespace {
@@ -27,7 +27,7 @@ class GpuVisibility : public Technique {
     for (const glm::dvec2& shift : view.all_shifts()) {
       tools_.timer.mark("ray tree");
       const GpuRays& rays = rays_.get(view, shift, [this](const Camera& camera, const PixelRect& tile, glm::dvec2 at) {
-        return GpuRays(RayTree(rays_of(camera, tile, at)), tools_.context.limits());
+        return GpuRays(RayTree(CameraRays(camera, tile, {at})), tools_.context.limits());
       });
       tools_.timer.mark("find");
       VisibleTriangles visible = finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque);

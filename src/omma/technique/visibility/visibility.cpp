@@ -1,15 +1,15 @@
 #include "omma/technique/visibility/visibility.h"
 
-#include "omma/camera/ray_bundle.h"
 #include "omma/technique/pass_cache.h"
 #include "omma/technique/resolve.h"
+#include "omma/visibility/camera_rays.h"
 #include "omma/visibility/finder.h"
 
 namespace omma {
 namespace {
 
 RayTree make_tree(const Camera& camera, const PixelRect& tile, const glm::dvec2& shift) {
-  return RayTree(rays_of(camera, tile, shift));
+  return RayTree(CameraRays(camera, tile, {shift}));
 }
 
 class Visibility : public Technique {

@@ -8,7 +8,7 @@
 
 namespace omma {
 
-template <typename Key, typename Value>
+template <typename Key, typename Value, size_t kept = 16>
 class RecentCache {
  public:
   /// `make(key)` returns a Value, which stays where it is until as many other keys as are kept were asked for.
@@ -30,7 +30,6 @@ class RecentCache {
   }
 
  private:
-  static constexpr size_t kept = 16;
   std::list<std::pair<Key, Value>> entries_;
 };
 
