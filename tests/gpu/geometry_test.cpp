@@ -98,7 +98,7 @@ TEST(FrustumTest, NeverLosesABoxWithAPointInside) {
   EXPECT_GT(lost, 1000u);
 }
 
-TEST(RegistryTest, NamesAreUniqueAndUnderstood) {
+TEST(TechniqueListTest, NamesAreUniqueAndUnderstood) {
   const Camera flat = make_camera("perspective:fov_deg=90");
   for (const TechniqueInfo& technique : techniques()) {
     SCOPED_TRACE(technique.name);

@@ -7,8 +7,8 @@
 
 #include "omma/base/error.h"
 #include "omma/math/pose.h"
-#include "omma/technique/probe/probe.h"
 #include "omma/oracle/embree_scene.h"
+#include "omma/technique/probe/probe.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 

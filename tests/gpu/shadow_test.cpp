@@ -6,8 +6,8 @@
 
 #include "omma/base/error.h"
 #include "omma/math/pose.h"
-#include "omma/shading/shadow_layers.h"
 #include "omma/oracle/embree_scene.h"
+#include "omma/shading/shadow_layers.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 

@@ -11,6 +11,7 @@
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/oracle.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {
@@ -117,7 +118,10 @@ TEST_P(SubdivisionTest, BlendedTrianglesKeepTheirOrderInParts) {
   maker.place(maker.add(make_pane(-1.0f, 1.0f, glass({0, 0, 1, 0.5f}))));
   const Scene scene = maker.finish();
   renderer().load(scene);
-  for (const char* text : cameras) {
+  for (size_t i = 0; i < std::size(cameras); ++i) {
+    const char* text = cameras[i];
+    if (!is_proved_today(size_t(technique() == std::string("subdivision:tessellator")), i, std::size(cameras)))
+      continue;
     const Camera camera = make_camera(text);
     const auto picture = [&](const char* name) {
       return draw_color(camera, glm::dmat4(1.0), {.technique = name, .samples = 4, .pieces = {.tolerance_px = 0.2}});

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -73,6 +74,15 @@ TEST_F(File, OnlyWhatADeadProcessLeftIsRemoved) {
   remove_abandoned(folder_ / "missing");
 }
 
+TEST_F(File, OfUnknownOrLargeSizeAreReadToTheirEnd) {
+  EXPECT_FALSE(read_file("/proc/self/status").empty());  // its size is said to be 0
+  const std::string large(300'000, 'x');
+  write_text(folder_ / "large", large);
+  EXPECT_EQ(read_file(folder_ / "large"), large);
+  write_text(folder_ / "empty", "");
+  EXPECT_EQ(read_file(folder_ / "empty"), "");
+}
+
 TEST_F(File, UnusablePathsAreRefusedBeforehand) {
   EXPECT_THROW(require_writable(folder_ / "missing" / "a.txt"), CommandError);
   EXPECT_THROW(require_writable(folder_), CommandError);
@@ -81,6 +91,10 @@ TEST_F(File, UnusablePathsAreRefusedBeforehand) {
   EXPECT_NO_THROW(require_writable(folder_ / "a"));
   EXPECT_THROW(read_file(folder_), InputError);
   EXPECT_THROW(read_file(folder_ / "missing"), InputError);
+  // Nobody writes to the pipe: waiting for its end would last for ever.
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(read_file(folder_ / "pipe"), InputError);
+  EXPECT_THROW(read_file("/dev/zero"), InputError);
 }
 
 }  // namespace

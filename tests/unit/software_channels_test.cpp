@@ -104,6 +104,28 @@ TEST(SeenTriangleTest, EdgeOnTheFindersDistanceStands) {
   EXPECT_NEAR(uv.y, 0.875, 1e-12);
 }
 
+TEST(SoftwareRendererTest, OneFindingGivesColorAndTheOthersWhatTwoGive) {
+  const Camera camera = make_camera("equidistant:fov_deg=200", ImageSize{70, 50});
+  constexpr Channel color[] = {Channel::color};
+  std::vector<Channel> all(std::begin(all_but_color), std::end(all_but_color));
+  all.push_back(Channel::color);
+  const Scene solid = make_balls(glm::dvec3(0.0)), blended = make_ball_and_pane();
+  for (const Scene* scene : {&solid, &blended}) {
+    SoftwareRenderer renderer(*scene);
+    const auto together = renderer.render(camera, glm::dmat4(1.0), all, {.samples = 1});
+    auto apart = renderer.render(camera, glm::dmat4(1.0), all_but_color);
+    apart.merge(renderer.render(camera, glm::dmat4(1.0), color, {.samples = 1}));
+    ASSERT_EQ(together.size(), apart.size());
+    for (const auto& [channel, image] : together) {
+      std::visit(
+          [&, c = channel](const auto& typed) {
+            EXPECT_EQ(std::get<std::decay_t<decltype(typed)>>(apart.at(c)).values, typed.values);
+          },
+          image);
+    }
+  }
+}
+
 TEST(SoftwareRendererTest, FollowsWhatMoves) {
   Scene scene = make_ball_and_pane();
   SoftwareRenderer renderer(scene);

@@ -8,7 +8,6 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -22,6 +21,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view unfinished = ".part";
+
+/// Of a file that is read at once: a map of 8192 x 8192 rays in double precision is 1.5 GiB.
+constexpr size_t most_bytes = size_t{4} << 30;
 
 /// Which process writes a file that is not whole yet: PROCESS of `.STEM.PROCESS.part.EXTENSION`.
 std::optional<int> writer_of(std::string_view name) {
@@ -45,9 +47,27 @@ std::string read_file(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError("{}: no such file", path.string());
   if (fs::is_directory(status)) throw InputError("{}: is a folder, a file is expected", path.string());
+  // Opening a pipe that nobody writes to would never end.
+  if (!fs::is_regular_file(status)) throw InputError("{}: is a pipe or a device, a file is expected", path.string());
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError("{}: cannot be read ({})", path.string(), std::strerror(errno));
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::string text;
+  // What a file system calls its size is where it most likely ends: some say 0 of what they make up while it is read.
+  size_t room = static_cast<size_t>(fs::file_size(path, error)) + 1;
+  if (error) room = 1;
+  for (size_t end = 0;; room = 1U << 16) {
+    if (end + room > most_bytes + 1) {
+      throw InputError("{}: is larger than {} GiB, the most that is read", path.string(), most_bytes >> 30);
+    }
+    text.resize(end + room);
+    stream.read(text.data() + end, static_cast<std::streamsize>(room));
+    end += static_cast<size_t>(stream.gcount());
+    if (stream.bad()) throw InputError("{}: cannot be read ({})", path.string(), std::strerror(errno));
+    if (end < text.size()) {
+      text.resize(end);
+      return text;
+    }
+  }
 }
 
 void require_writable(const fs::path& path) {

@@ -8,7 +8,8 @@
 
 namespace omma {
 
-/// The whole file as text. Throws InputError when it is missing, a folder, or unreadable.
+/// The whole file as text. Throws InputError when it is missing, a folder, a pipe, a device, unreadable or larger than
+/// 4 GiB.
 std::string read_file(const std::filesystem::path& path);
 
 /// Throws CommandError when `path` could not be created: its folder is missing, or is no folder.

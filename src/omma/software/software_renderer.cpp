@@ -63,7 +63,7 @@ void SoftwareRenderer::prepare_textures() {
 
 void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   const SoftwareOptions& options, std::optional<int> hidden_object, FloatImage& image,
-                                  SoftwareStats& stats) {
+                                  SoftwareStats& stats, const ChannelWriter* channels) {
   Stopwatch watch(stats);
   prepare_textures();
   const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
@@ -107,6 +107,7 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
       const RayBlock& block = *found.front().block;
       shade_fragments(shaded, block, *found.front().border, fragments);
       fragments.resolve(share, first == 0, image, {block.pixel_x, block.pixel_y});
+      if (channels != nullptr) channels->write(block, found.front().picture);
     });
     watch.add_to("find and shade");
   }
@@ -139,12 +140,10 @@ const Surroundings& SoftwareRenderer::surroundings_of(const SoftwareOptions& opt
 }
 
 void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera,
-                                     std::map<Channel, Image>& images, SoftwareStats& stats) {
+                                     const ChannelWriter& writer, SoftwareStats& stats) {
   Stopwatch watch(stats);
   finder_.set_view(worldFromCamera);
   watch.add_to("place");
-  const std::vector<SeenInstance> instances = seen_instances(*scene_, glm::inverse(worldFromCamera));
-  const ChannelWriter writer(instances, worldFromCamera, images);
   const CameraRays rays(patches_.of(camera), {glm::dvec2(0.0)});
   watch.add_to("patches");
   finder_.each_block(rays, Solid::labels,
@@ -161,13 +160,17 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
   SoftwareStats took;
   std::map<Channel, Image> images;
   for (const Channel channel : wanted) images.emplace(channel, make_image(channel_info(channel), camera.size()));
+  const std::vector<SeenInstance> instances = seen_instances(*scene_, glm::inverse(worldFromCamera));
+  const ChannelWriter writer(instances, worldFromCamera, images);
   const auto color = images.find(Channel::color);
-  if (color != images.end()) {
-    draw_color(camera, worldFromCamera, options, std::nullopt, std::get<FloatImage>(color->second), took);
+  const bool has_color = color != images.end(), has_others = images.size() > (has_color ? 1u : 0u);
+  // All else is sampled at the pixels' centres, where a single sample lies, too; blended surfaces are solid there.
+  const bool at_once = has_color && has_others && options.samples == 1 && !finder_.has_blending();
+  if (has_color) {
+    draw_color(camera, worldFromCamera, options, std::nullopt, std::get<FloatImage>(color->second), took,
+               at_once ? &writer : nullptr);
   }
-  if (images.size() > (color != images.end() ? 1u : 0u)) {
-    draw_channels(camera, worldFromCamera, images, took);
-  }
+  if (has_others && !at_once) draw_channels(camera, worldFromCamera, writer, took);
   took.bytes = finder_.bytes() + patches_.bytes() + shadow_depths_.depths().size() * sizeof(float);
   for (const MipTexture& texture : textures_) took.bytes += texture.bytes();
   if (surroundings_) took.bytes += surroundings_->bytes();

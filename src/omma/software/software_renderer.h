@@ -24,6 +24,8 @@
 
 namespace omma {
 
+class ChannelWriter;
+
 /// How colour is made.
 struct SoftwareOptions {
   int samples = 4;                        ///< per pixel, 1 or more
@@ -66,12 +68,13 @@ class SoftwareRenderer {
 
  private:
   void prepare_textures();
-  /// Without `hidden_object`.
+  /// Without `hidden_object`; writes what the first samples find to `channels`, too, if there are any.
   void draw_color(const Camera& camera, const glm::dmat4& worldFromCamera, const SoftwareOptions& options,
-                  std::optional<int> hidden_object, FloatImage& image, SoftwareStats& stats);
+                  std::optional<int> hidden_object, FloatImage& image, SoftwareStats& stats,
+                  const ChannelWriter* channels = nullptr);
   /// What surrounds options.reflect, drawn where it is not there.
   const Surroundings& surroundings_of(const SoftwareOptions& options);
-  void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, std::map<Channel, Image>& images,
+  void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, const ChannelWriter& writer,
                      SoftwareStats& stats);
 
   const Scene* scene_;

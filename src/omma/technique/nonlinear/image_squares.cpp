@@ -15,11 +15,11 @@ constexpr int children = 2;   ///< along a side of a square
 
 /// What one pixel shows: up to a little within its sides, as seams of an image run between pixels. Nothing where its
 /// centre, wherever a pass has it, sees nothing: its samples go with that.
-std::optional<Cone> cone_of_pixel(const Camera& camera, const glm::dvec2& corner, bool shifted) {
+std::optional<WideCone> cone_of_pixel(const Camera& camera, const glm::dvec2& corner, bool shifted) {
   if (!shifted && !camera.unproject(corner + 0.5)) return std::nullopt;
   constexpr double inset = 0.02;
   const double beyond = shifted ? 0.5 : 0.0;
-  std::optional<Cone> cone;
+  std::optional<WideCone> cone;
   for (const int cells : {2, 8, 32}) {
     RayGrid grid{.step = (1.0 + 2.0 * (beyond - inset)) / cells,
                  .first = corner + inset - beyond,
@@ -177,12 +177,12 @@ class Builder {
     return std::nullopt;
   }
 
-  void enclose(Cone& cone, const std::vector<size_t>& parts) const {
+  void enclose(WideCone& cone, const std::vector<size_t>& parts) const {
     glm::dvec3 sum(0.0);
     for (size_t part : parts) sum += squares_[part].cone.axis;
     cone.axis = glm::length(sum) > 1e-6 ? glm::normalize(sum) : squares_[parts.front()].cone.axis;
     for (size_t part : parts) {
-      const Cone& of_part = squares_[part].cone;
+      const WideCone& of_part = squares_[part].cone;
       cone.angle = std::max(cone.angle, angle_between(cone.axis, of_part.axis) + of_part.angle);
     }
     cone.angle = std::min(cone.angle, glm::pi<double>());
@@ -196,7 +196,7 @@ class Builder {
   double reach_ = 0.0;
   RayGrid grid_{};
   std::vector<Leaf> leaves_;
-  std::vector<std::array<std::optional<Cone>, size_t(leaf_side* leaf_side)>> pixels_;  ///< of uneven leaves
+  std::vector<std::array<std::optional<WideCone>, size_t(leaf_side* leaf_side)>> pixels_;  ///< of uneven leaves
   std::vector<ImageSquare> squares_;
 };
 

@@ -78,11 +78,11 @@ bool is_whole(const RayGrid& grid, const GridPart& part) {
 
 bool is_even(const RayGrid& grid, const GridPart& part) { return changes_in(grid, part).even(); }
 
-std::optional<Cone> cone_around(const RayGrid& grid, const GridPart& part, double reach) {
+std::optional<WideCone> cone_around(const RayGrid& grid, const GridPart& part, double reach) {
   const Changes changes = changes_in(grid, part);
   const glm::dvec4 sum = sum_of(grid, part);
   if (sum.w == 0.0) return std::nullopt;
-  Cone cone;
+  WideCone cone;
   const double step = std::max(changes.across.most, changes.down.most);
   // A single ray says nothing of those around it.
   if (glm::length(glm::dvec3(sum)) < 1e-6 || step == 0.0) {

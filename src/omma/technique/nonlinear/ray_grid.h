@@ -36,14 +36,15 @@ bool is_whole(const RayGrid& grid, const GridPart& part);
 /// True where none does, and rays change from point to point by much the same angles.
 bool is_even(const RayGrid& grid, const GridPart& part);
 
-struct Cone {
+/// Of any width, unlike those of visibility/.
+struct WideCone {
   glm::dvec3 axis{0.0, 0.0, -1.0};
   double angle = 0.0;  ///< radians; up to pi
 };
 
 /// A cone around the rays of a part and those between its points, up to `reach` steps beyond its outer points. Nothing
 /// when there are no rays.
-std::optional<Cone> cone_around(const RayGrid& grid, const GridPart& part, double reach);
+std::optional<WideCone> cone_around(const RayGrid& grid, const GridPart& part, double reach);
 
 /// Rays as a linear function of the pixel: with u and v from -1 to 1 across a square, middle + u across + v down is
 /// along the ray but for a vector of length `off`, and its projection on the square's mean ray has length 1 or nearly
