@@ -38,7 +38,8 @@ TEST_P(PictureTest, TilesMakeTheSamePicture) {
   RenderStats one, many;
   const auto whole = render(0, &one), tiled = render(64, &many);
   EXPECT_EQ(one.tiles, 1);
-  EXPECT_EQ(many.tiles, 12);
+  // The processor draws squares smaller than any tile.
+  EXPECT_EQ(many.tiles, GetParam() == "visibility:cpu" ? 1 : 12);
   const double share =
       share_of_differences(std::get<IntImage>(whole.at(Channel::id)), std::get<IntImage>(tiled.at(Channel::id)));
   const double decibels =

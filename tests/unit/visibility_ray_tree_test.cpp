@@ -32,6 +32,15 @@ bool near_its_pixel(const PixelGrid& grid, int column, int row, const glm::dvec3
          std::abs(glm::dot(glm::dvec3(grid.row), direction) / ahead - row) <= double(grid.row_error);
 }
 
+bool has_no_ray(const RayMap& rays, const glm::ivec2& first) {
+  for (int y = first.y; y < std::min(first.y + RayBlock::side, rays.size.height); ++y) {
+    for (int x = first.x; x < std::min(first.x + RayBlock::side, rays.size.width); ++x) {
+      if (rays.directions[size_t(y) * size_t(rays.size.width) + size_t(x)] != glm::vec3(0.0f)) return false;
+    }
+  }
+  return true;
+}
+
 /// How far a ray is from the map's, pixels of the smaller side that its neighbours leave between them; single
 /// precision's last digit apart.
 double error_px(const RayMap& rays, int x, int y, const glm::vec3& ray) {
@@ -83,6 +92,10 @@ size_t check(const RayMap& rays, const RayTree& tree, double accepted_px = 0.0) 
     }
   }
   for (size_t i = 0; i < met.size(); ++i) wrong += met[i] != (rays.directions[i] != glm::vec3(0.0f));
+  // What has no block is said to be blank, once.
+  const size_t squares = size_t((rays.size.width + 15) / 16) * size_t((rays.size.height + 15) / 16);
+  EXPECT_EQ(tree.blocks().size() + tree.blank().size(), squares);
+  for (const glm::ivec2& first : tree.blank()) EXPECT_TRUE(has_no_ray(rays, first));
   EXPECT_EQ(wrong, 0u);
   EXPECT_EQ(outside, 0u);
   return count;

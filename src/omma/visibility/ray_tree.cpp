@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "omma/base/error.h"
 #include "omma/visibility/make_blocks.h"
@@ -165,19 +166,24 @@ RayTree::RayTree(const RaySource& source) : size_(source.size()), samples_(sourc
 /// Only the squares that are `filled`.
 void RayTree::keep(std::span<const char> filled) {
   const auto count = size_t(samples_);
+  // A source may leave out what it knows to be blank.
+  const int across = (size_.width + RayBlock::side - 1) / RayBlock::side;
+  const int down = (size_.height + RayBlock::side - 1) / RayBlock::side;
+  std::vector<char> is_blank(size_t(across) * size_t(down), 1);
   size_t kept = 0;
   for (size_t i = 0; i < filled.size(); ++i) {
     const RayBlock& first = blocks_[i * count];
-    if (!filled[i]) {
-      blank_.emplace_back(first.pixel_x, first.pixel_y);
-      continue;
-    }
+    if (!filled[i]) continue;
+    is_blank[size_t(first.pixel_y / RayBlock::side * across + first.pixel_x / RayBlock::side)] = 0;
     std::copy_n(blocks_.begin() + ptrdiff_t(i * count), count, blocks_.begin() + ptrdiff_t(kept * count));
     if (!borders_.empty()) borders_[kept] = borders_[i];
     ++kept;
   }
   blocks_.resize(kept * count);
   if (!borders_.empty()) borders_.resize(kept);
+  for (int i = 0; i < across * down; ++i) {
+    if (is_blank[size_t(i)]) blank_.push_back(RayBlock::side * glm::ivec2(i % across, i / across));
+  }
 }
 
 RaySquares RayTree::some(size_t first, size_t count, RayRoom&) const {
