@@ -39,7 +39,7 @@ class RayPatches {
   /// The square has `half_side` pixels to each side of its middle.
   std::optional<RayPatch> around(const glm::dvec2& middle, double half_side) const;
 
-  /// True only where no point of the square has a ray.
+  /// True only where no point of the square has a ray; of a point, half_side is 0.
   bool is_blank(const glm::dvec2& middle, double half_side) const;
 
  private:

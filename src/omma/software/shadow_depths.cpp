@@ -18,7 +18,7 @@ void write(const RayBlock& block, const BlockPicture& picture, bool flat, int si
 
 }  // namespace
 
-void ShadowDepths::use(const Scene& scene, Shadows kind, int size, Finder& finder, RecentPatches& patches) {
+void ShadowDepths::use(const Scene& scene, Shadows kind, int size, Finder& finder, RecentRays& rays) {
   if (kind == kind_ && size == size_) return;
   kind_ = Shadows::off;
   layers_ = plan_shadow_layers(lights_of(scene), boxes_of_triangles(scene), kind, size);
@@ -27,10 +27,10 @@ void ShadowDepths::use(const Scene& scene, Shadows kind, int size, Finder& finde
   for (size_t i = 0; i < layers_.size(); ++i) {
     const ShadowLayer& layer = layers_[i];
     finder.set_view(layer.worldFromMap);
-    const CameraRays rays(patches.of(layer.camera), {glm::dvec2(0.0)});
-    finder.each_block(rays, Solid::labels, [&](const RayBlock& block, const BlockPicture& picture) {
-      write(block, picture, layer.flat(), size, &depths_[i * texels]);
-    });
+    finder.each_block(rays.of(layer.camera, {glm::dvec2(0.0)}), Solid::labels,
+                      [&](const RayBlock& block, const BlockPicture& picture) {
+                        write(block, picture, layer.flat(), size, &depths_[i * texels]);
+                      });
   }
   kind_ = kind;
   size_ = size;

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "omma/shading/shadow_layers.h"
-#include "omma/visibility/camera_rays.h"
 #include "omma/visibility/finder.h"
+#include "omma/visibility/recent_rays.h"
 
 namespace omma {
 
@@ -16,7 +16,7 @@ class ShadowDepths {
 
   /// Finds the maps of all lights that are not there, of `size` texels along a side. Leaves the finder with a light's
   /// view. Throws MachineError for maps that take too much memory. Runs on all cores.
-  void use(const Scene& scene, Shadows kind, int size, Finder& finder, RecentPatches& patches);
+  void use(const Scene& scene, Shadows kind, int size, Finder& finder, RecentRays& rays);
   /// Lights or what they shine on have moved.
   void scene_changed() { kind_ = Shadows::off; }
 

@@ -78,7 +78,7 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   }
   watch.add_to("prepare");
   if (options.shadows != Shadows::off) {
-    shadow_depths_.use(*scene_, options.shadows, options.shadow_size, finder_, patches_);
+    shadow_depths_.use(*scene_, options.shadows, options.shadow_size, finder_, rays_);
     shaded.shadow_maps =
         shadow_map_records(shadow_depths_.layers(), worldFromCamera, ShadowDepths::near, shaded.lights);
     shaded.shadow_depths = shadow_depths_.depths().data();
@@ -95,12 +95,12 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   tbb::enumerable_thread_specific<Fragments> scratch([&] { return Fragments(instances); });
   const std::vector<glm::dvec2> pattern = sampling_pattern(options.samples);
   const size_t samples = pattern.size();
-  const std::shared_ptr<const SquarePatches> patches = patches_.of(camera);
-  watch.add_to("patches");
   for (size_t first = 0; first < samples; first += most_samples, ++stats.passes) {
     const size_t count = std::min(most_samples, samples - first);
     const float share = float(count) / float(samples);
-    const CameraRays rays(patches, {pattern.begin() + ptrdiff_t(first), pattern.begin() + ptrdiff_t(first + count)});
+    const RaySource& rays =
+        rays_.of(camera, {pattern.begin() + ptrdiff_t(first), pattern.begin() + ptrdiff_t(first + count)});
+    watch.add_to("rays");
     finder_.each_square(rays, [&](std::span<const FoundBlock> found) {
       Fragments& fragments = scratch.local();
       fragments.collect(found);
@@ -144,8 +144,8 @@ void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& wor
   Stopwatch watch(stats);
   finder_.set_view(worldFromCamera);
   watch.add_to("place");
-  const CameraRays rays(patches_.of(camera), {glm::dvec2(0.0)});
-  watch.add_to("patches");
+  const RaySource& rays = rays_.of(camera, {glm::dvec2(0.0)});
+  watch.add_to("rays");
   finder_.each_block(rays, Solid::labels,
                      [&](const RayBlock& block, const BlockPicture& picture) { writer.write(block, picture); });
   watch.add_to("find");
@@ -171,7 +171,7 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
                at_once ? &writer : nullptr);
   }
   if (has_others && !at_once) draw_channels(camera, worldFromCamera, writer, took);
-  took.bytes = finder_.bytes() + patches_.bytes() + shadow_depths_.depths().size() * sizeof(float);
+  took.bytes = finder_.bytes() + rays_.bytes() + shadow_depths_.depths().size() * sizeof(float);
   for (const MipTexture& texture : textures_) took.bytes += texture.bytes();
   if (surroundings_) took.bytes += surroundings_->bytes();
   if (stats != nullptr) *stats = took;

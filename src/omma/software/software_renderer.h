@@ -19,8 +19,8 @@
 #include "omma/software/mip_texture.h"
 #include "omma/software/shadow_depths.h"
 #include "omma/software/surroundings.h"
-#include "omma/visibility/camera_rays.h"
 #include "omma/visibility/finder.h"
+#include "omma/visibility/recent_rays.h"
 
 namespace omma {
 
@@ -80,7 +80,7 @@ class SoftwareRenderer {
   const Scene* scene_;
   Finder finder_;
   std::vector<MipTexture> textures_;
-  RecentPatches patches_;
+  RecentRays rays_;
   ShadowDepths shadow_depths_;
   /// What surroundings depend on beside the scene.
   struct SurroundingsKey {

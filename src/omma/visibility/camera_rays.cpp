@@ -19,9 +19,9 @@ constexpr double beside = 2.0;
 
 }  // namespace
 
-SquarePatches::SquarePatches(const Camera& camera, const PixelRect& region) : camera_(camera), region_(region) {
+SquarePatches::SquarePatches(const Camera& camera, const PixelRect& region)
+    : camera_(camera), fitter_(camera_), region_(region) {
   const std::vector<glm::ivec2> places = squares_of({region.width(), region.height()});
-  const RayPatches patches(camera_);
   // Squares are in an order in which those of a group follow each other.
   constexpr int side = RayBlock::side, group_side = side * squares_at_once;
   const auto group_of = [&](const glm::ivec2& place) { return place / group_side; };
@@ -38,13 +38,13 @@ SquarePatches::SquarePatches(const Camera& camera, const PixelRect& region) : ca
   const glm::dvec2 corner(region.x0, region.y0);
   const auto around = [&](const glm::ivec2& first, int pixels) {
     const double half = 0.5 * pixels;
-    return patches.around(corner + glm::dvec2(first) + half, half + beside);
+    return fitter_.around(corner + glm::dvec2(first) + half, half + beside);
   };
   tbb::parallel_for(size_t{0}, made.size(), [&](size_t g) {
     Made& to = made[g];
     const glm::ivec2 group = group_of(places[groups[g]]) * group_side;
     const auto is_blank = [&](const glm::ivec2& first, int pixels) {
-      return patches.is_blank(corner + glm::dvec2(first) + 0.5 * pixels, 0.5 * pixels + 1.0);
+      return fitter_.is_blank(corner + glm::dvec2(first) + 0.5 * pixels, 0.5 * pixels + 1.0);
     };
     if (is_blank(group, group_side)) return;
     const auto whole = around(group, group_side);
@@ -67,18 +67,6 @@ SquarePatches::SquarePatches(const Camera& camera, const PixelRect& region) : ca
     }
     patches_.insert(patches_.end(), part.patches.begin(), part.patches.end());
   }
-}
-
-std::shared_ptr<const SquarePatches> RecentPatches::of(const Camera& camera) {
-  return cache_.get(camera, [](const Camera& of) {
-    return std::make_shared<const SquarePatches>(of, PixelRect{0, 0, of.size().width, of.size().height});
-  });
-}
-
-size_t RecentPatches::bytes() const {
-  size_t sum = 0;
-  cache_.each([&](const std::shared_ptr<const SquarePatches>& patches) { sum += patches->bytes(); });
-  return sum;
 }
 
 RaySquares CameraRays::some(size_t first, size_t count, RayRoom& room) const {
@@ -120,7 +108,9 @@ void CameraRays::make_of(const Form& form, const glm::ivec2& first, std::span<Ra
   const PixelRect& region = patches_->region();
   const glm::dvec2 centre(region.x0 + first.x + 0.5, region.y0 + first.y + 0.5);
   const auto ray = [&](int column, int row, const glm::dvec2& shift) {
-    return glm::vec3(form.unproject(centre + glm::dvec2(column, row) + shift).value_or(glm::dvec3(0.0)));
+    const glm::dvec2 pixel = centre + glm::dvec2(column, row) + shift;
+    if (patches_->is_blank(pixel)) return glm::vec3(0.0f);
+    return glm::vec3(form.unproject(pixel).value_or(glm::dvec3(0.0)));
   };
   const glm::ivec2 inside = glm::ivec2(region.width(), region.height()) - first;
   bool any = false;

@@ -1,12 +1,11 @@
-// The rays of a camera's image, made where they are used: nothing of a ray is kept, so that a camera that changes with
-// every frame costs what one costs that stands still, and memory does not grow with the image or its samples.
+// The rays of a camera's image, made where they are used: nothing of a ray is kept, so that a camera may change with
+// every frame, and memory does not grow with the image or its samples.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "omma/base/recent_cache.h"
 #include "omma/camera/ray_patch.h"
 #include "omma/visibility/ray_source.h"
 
@@ -17,6 +16,8 @@ class SquarePatches {
  public:
   /// Runs on all cores.
   SquarePatches(const Camera& camera, const PixelRect& region);
+  SquarePatches(const SquarePatches&) = delete;
+  SquarePatches& operator=(const SquarePatches&) = delete;
 
   const Camera& camera() const { return camera_; }
   const PixelRect& region() const { return region_; }
@@ -29,24 +30,16 @@ class SquarePatches {
   /// Those in which there may be a ray, neighbours near to each other.
   const std::vector<Square>& squares() const { return squares_; }
   const std::vector<RayPatch>& patches() const { return patches_; }
+  /// True only where the point of the image has no ray.
+  bool is_blank(const glm::dvec2& pixel) const { return fitter_.is_blank(pixel, 0.0); }
   size_t bytes() const { return squares_.capacity() * sizeof(Square) + patches_.capacity() * sizeof(RayPatch); }
 
  private:
   Camera camera_;
+  RayPatches fitter_;
   PixelRect region_;
   std::vector<Square> squares_;
   std::vector<RayPatch> patches_;
-};
-
-/// Those of the last cameras: a sequence asks for the same ones again and again.
-class RecentPatches {
- public:
-  /// Of the camera's whole image. Runs on all cores.
-  std::shared_ptr<const SquarePatches> of(const Camera& camera);
-  size_t bytes() const;
-
- private:
-  RecentCache<Camera, std::shared_ptr<const SquarePatches>, 4> cache_;
 };
 
 class CameraRays final : public RaySource {

@@ -13,7 +13,7 @@ namespace omma {
 /// A square of pixels of a view's tile.
 struct ImageSquare {
   int x = 0, y = 0, side = 0;
-  WideCone cone{};                         ///< around its rays
+  WideCone cone{};                     ///< around its rays
   std::optional<LinearRays> linear{};  ///< where its rays change evenly
   bool whole = false;                  ///< sees something everywhere
   int descendants = 0;                 ///< squares that follow and lie within this one

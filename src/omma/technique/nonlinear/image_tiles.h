@@ -1,8 +1,8 @@
 // The squares of an image as the GPU sees them. For a lens they know as well how straight the edges of triangles are.
 #pragma once
 
-#include "omma/technique/nonlinear/image_squares.h"
 #include "omma/base/recent_cache.h"
+#include "omma/technique/nonlinear/image_squares.h"
 #include "omma/technique/replication/cone_tree.h"
 #include "omma/technique/view.h"
 

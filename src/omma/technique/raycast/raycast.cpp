@@ -1,8 +1,8 @@
 #include "omma/technique/raycast/raycast.h"
 
 #include "omma/camera/ray_bundle.h"
-#include "omma/technique/pass_cache.h"
 #include "omma/oracle/embree_scene.h"
+#include "omma/technique/pass_cache.h"
 #include "omma/technique/resolve.h"
 
 namespace omma {
