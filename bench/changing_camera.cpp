@@ -17,7 +17,7 @@ struct Change {
   const char* text;
 };
 constexpr Change changes[] = {
-    {"a field of view that grows", "equidistant:fov_deg=18{0:02}"},
+    {"a field of view that grows", "equidistant:fov_deg=180.{0:02}"},
     {"a calibrated lens that zooms",
      "opencv_fisheye:f=5{0:02},cx=800,cy=600,width=1600,height=1200,k1=0.0035,k2=0.0007,k3=-0.0021,k4=0.0002"},
     {"a dome that turns", "equidistant:fov_deg=180,yaw_deg={0}"},

@@ -17,8 +17,8 @@ if(OMMA_SANITIZE)
   target_compile_options(omma_options INTERFACE $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>>)
   target_compile_options(omma_options INTERFACE $<BUILD_INTERFACE:-fsanitize=${OMMA_SANITIZE} -fno-omit-frame-pointer
                                                 -fno-sanitize-recover=all>)
-  # The address sanitizer sees what is read through a null pointer, and SIMD loads fault where they are not aligned; checks
-  # of both before every access are a quarter of the time to compile.
+  # The address sanitizer sees what is read through a null pointer. Checks of null and of alignment before every access are
+  # a quarter of the time to compile.
   if(OMMA_SANITIZE MATCHES undefined)
     target_compile_options(omma_options INTERFACE $<BUILD_INTERFACE:-fno-sanitize=null,alignment>)
   endif()

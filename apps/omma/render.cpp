@@ -341,7 +341,7 @@ void add_render(const Command& tool) {
   add(picture, "--tolerance", "PX", options->tolerance,
       "piecewise, subdivision: how far pieces or edges may be from the camera's, pixels, default 0.25");
   add(picture, "--pieces", "N", options->pieces, "piecewise: about so many pieces of equal size instead");
-  add(picture, "--tile", "N", options->tile, "Largest tile in pixels, default what the driver allows");
+  add(picture, "--tile", "N", options->tile, "Largest tile that OpenGL draws, pixels; default what the driver allows");
   const char* view = "View (without any: the scene's first camera, else its default view)";
   add(view, "--from", "X,Y,Z", options->view.from, "Where the camera stands, world metres, +Y up");
   add(view, "--to", "X,Y,Z", options->view.to, "What it looks at");

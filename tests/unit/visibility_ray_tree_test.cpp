@@ -173,6 +173,24 @@ TEST(CameraRaysTest, AreTheFormulasForEveryLens) {
   EXPECT_LT(double(one_by_one) / double(squares), 0.2);
 }
 
+TEST(CameraRaysTest, KnowHolesThatAreSmallerThanAPatch) {
+  // What is cut out behind the camera lies in the midst of such images, and custom_radial has a hole around its axis.
+  for (const char* text :
+       {"dual_fisheye:width=2000,height=1000,max_angle_deg=179",
+        "dual_fisheye:width=2000,height=1000,max_angle_deg=178.3",
+        "barrelsplit:width=1500,height=1000,max_angle_deg=178",
+        "cube_3x2:width=1500,height=1000,max_angle_deg=179,yaw_deg=20",
+        "octahedral:width=900,height=900,max_angle_deg=178", "custom_radial:f=500,c3=0.011,fun=id,width=900,height=900",
+        "custom_radial:f=2000,c3=0.201,fun=id,max_angle_deg=0.1,width=900,height=900"}) {
+    SCOPED_TRACE(text);
+    const Camera camera = make_camera(text);
+    const PixelRect image{0, 0, camera.size().width, camera.size().height};
+    const RayMap expected = rays_of(camera, image);
+    EXPECT_GT(std::ranges::count(expected.directions, glm::vec3(0.0f)), 0);
+    EXPECT_GT(check(expected, RayTree(CameraRays(camera, image, {glm::dvec2(0.0)})), 1e-3), 500u);
+  }
+}
+
 TEST(RayTreeTest, PixelsLieOnAGridWhereTheLensBendsLittle) {
   const auto largest_error = [](const char* camera) {
     const RayTree tree(rays_of(make_camera(camera, ImageSize{800, 600})));

@@ -17,6 +17,10 @@ constexpr std::array<glm::dvec2, 4> proofs = {glm::dvec2(0.0, 0.0), glm::dvec2(-
 // noticeably longer or shorter than 1.
 constexpr double finest = 3e-8, coarsest = 3e-7;
 
+// A hole of this radius, pixels, cannot reach between two nodes by more than the pixel that a patch is wider than its
+// rays: the nodes of 36 pixels are 18 apart.
+constexpr double widest_hidden = 48.0;
+
 // A patch's rays are within some 40 degrees of its middle: cones around them need no cases.
 constexpr double least_along = 0.77;
 
@@ -68,6 +72,7 @@ std::optional<double> last_radius_of(const Lens& lens) {
   const double step = unseen / steps;
   int last = steps - 1;
   while (last > 0 && !is_seen(last * step)) --last;
+  if (last == 0 && !is_seen(0.0)) return {};  // a ring narrower than a step
   seen = last * step;
   unseen = (last + 1) * step;
   for (int i = 0; i < 50; ++i) {
@@ -90,10 +95,11 @@ glm::dvec3 RayPatch::direction(const glm::dvec2& pixel) const {
   return sum;
 }
 
-RayPatches::RayPatches(const Camera& camera) : camera_(camera) {
+PatchFitter::PatchFitter(const Camera& camera) : camera_(camera) {
   const Lens* lens = camera.lens();
   if (!lens) return;
   last_radius_ = last_radius_of(*lens);
+  has_hole_in_middle_ = !lens->unproject(lens->centre);
   if (!lens->model->info.parts) return;
   parts_ = lens->model->info.parts(lens->parameters);
   for (std::vector<glm::dvec2>& polygon : parts_) {
@@ -101,7 +107,7 @@ RayPatches::RayPatches(const Camera& camera) : camera_(camera) {
   }
 }
 
-bool RayPatches::is_smooth(const glm::dvec2& low, const glm::dvec2& high) const {
+bool PatchFitter::is_smooth(const glm::dvec2& low, const glm::dvec2& high) const {
   const std::array<glm::dvec2, 4> corners = corners_of(low, high);
   if (const PieceSet* pieces = camera_.pieces()) {
     const auto first = pieces->owner(corners[0]);
@@ -112,20 +118,23 @@ bool RayPatches::is_smooth(const glm::dvec2& low, const glm::dvec2& high) const 
   if (!lens) return false;
   // The axis of a lens that is symmetric about it may be seen as a circle.
   const glm::dvec2& centre = lens->centre;
-  if (centre.x >= low.x && centre.y >= low.y && centre.x <= high.x && centre.y <= high.y) return false;
+  const double around = has_hole_in_middle_ ? widest_hidden : 0.0;
+  const bool is_beside = centre.x < low.x - around || centre.y < low.y - around || centre.x > high.x + around ||
+                         centre.y > high.y + around;
+  if (!is_beside) return false;
   return parts_.empty() || std::ranges::any_of(parts_, [&](const std::vector<glm::dvec2>& part) {
            return std::ranges::all_of(corners, [&](const glm::dvec2& corner) { return is_within(part, corner); });
          });
 }
 
-bool RayPatches::is_blank(const glm::dvec2& middle, double half_side) const {
+bool PatchFitter::is_blank(const glm::dvec2& middle, double half_side) const {
   if (!last_radius_) return false;
   const Lens& lens = *camera_.lens();
   const glm::dvec2 beside = glm::max(glm::abs(middle - lens.centre) - half_side, glm::dvec2(0.0)) / lens.focal;
   return glm::length(beside) > *last_radius_;
 }
 
-std::optional<RayPatch> RayPatches::around(const glm::dvec2& middle, double half_side) const {
+std::optional<RayPatch> PatchFitter::around(const glm::dvec2& middle, double half_side) const {
   if (!is_smooth(middle - half_side, middle + half_side)) return {};
   std::array<std::array<glm::dvec3, 4>, 4> along_x;
   std::array<std::array<glm::dvec3, 4>, 4> value;
@@ -151,12 +160,24 @@ std::optional<RayPatch> RayPatches::around(const glm::dvec2& middle, double half
     if (!ray || !(glm::distance(patch.direction(pixel), ray->direction) <= accepted)) return {};
   }
   const glm::dvec3 ahead = patch.term[0][0];
+  double along = 1.0;
   for (const size_t j : {0, 3}) {
-    for (const size_t i : {0, 3}) {
-      if (glm::dot(ahead, value[j][i]) < least_along) return {};
-    }
+    for (const size_t i : {0, 3}) along = std::min(along, glm::dot(ahead, value[j][i]));
   }
+  if (along < least_along || may_hide_a_hole(ahead, std::acos(std::min(1.0, along)))) return {};
   return patch;
+}
+
+bool PatchFitter::may_hide_a_hole(const glm::dvec3& ahead, double reach) const {
+  const Lens* lens = camera_.lens();
+  if (!lens) return false;
+  // What lies beyond max_angle is a cone around the way back. Layouts have it in the midst of their parts; where it is
+  // as wide as several patches, it cannot reach into one of them unseen.
+  constexpr double pi = 3.14159265358979323846;
+  const double hole = pi - lens->parameters.max_angle;
+  if (!(hole > 0.0) || hole > 4.0 * reach) return false;
+  const double from_back = std::acos(std::clamp(glm::dot(ahead, lens->cameraFromLens[2]), -1.0, 1.0));
+  return from_back <= 1.1 * reach + hole;
 }
 
 }  // namespace omma

@@ -15,7 +15,7 @@ namespace omma {
 /// Direction in the camera frame at (u, v), both within -1 and 1: the sum of term[j][i] u^i v^j. The place in the image
 /// is middle + half_side (u, v), pixels.
 ///
-/// What it gives is as long as 1 and where the camera's formula is, up to RayPatches::tolerance.
+/// What it gives is as long as 1 and where the camera's formula is, up to what PatchFitter says.
 struct RayPatch {
   static constexpr int terms = 4;
   glm::dvec2 middle{0.0};
@@ -25,14 +25,14 @@ struct RayPatch {
   glm::dvec3 direction(const glm::dvec2& pixel) const;
 };
 
-/// What patches can be made of for a camera.
-class RayPatches {
+/// Makes the patches of a camera.
+class PatchFitter {
  public:
   /// The camera must outlive this object.
-  explicit RayPatches(const Camera& camera);
+  explicit PatchFitter(const Camera& camera);
 
-  /// Rays a pixel apart are these parts of their distance beside the formula's own at most, but single precision's last
-  /// digit is never asked for.
+  /// Where a patch is compared with the formula, it is off by these parts of the distance of two rays a pixel apart at
+  /// most; single precision's last digit is never asked for.
   static constexpr double tolerance = 1e-4;
 
   /// Nothing where the camera does not see all of the square, where it is not smooth, or bends more than a patch does.
@@ -44,12 +44,17 @@ class RayPatches {
 
  private:
   bool is_smooth(const glm::dvec2& low, const glm::dvec2& high) const;
+  /// True where a hole may lie between all the places that a patch asks the formula for: of directions within `reach`,
+  /// radians, of `ahead`.
+  bool may_hide_a_hole(const glm::dvec3& ahead, double reach) const;
 
   const Camera& camera_;
   /// Convex polygons of the image, clockwise as seen, within which the lens is smooth; none where it is everywhere.
   std::vector<std::vector<glm::dvec2>> parts_;
   /// Beyond this radius of the lens's plane nothing is seen.
   std::optional<double> last_radius_;
+  /// The lens may see nothing around its centre.
+  bool has_hole_in_middle_ = false;
 };
 
 }  // namespace omma

@@ -1,5 +1,5 @@
 // The rays of a camera's image, made where they are used: nothing of a ray is kept, so that a camera may change with
-// every frame, and memory does not grow with the image or its samples.
+// every frame, and memory does not grow with the samples.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ class SquarePatches {
 
  private:
   Camera camera_;
-  RayPatches fitter_;
+  PatchFitter fitter_;
   PixelRect region_;
   std::vector<Square> squares_;
   std::vector<RayPatch> patches_;

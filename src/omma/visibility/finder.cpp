@@ -48,7 +48,8 @@ void each_squares(const RaySource& rays, const Each& each) {
   const size_t at_once = std::max<size_t>(1, blocks_at_once / samples);
   tbb::parallel_for(
       tbb::blocked_range<size_t>(0, rays.squares(), at_once),
-      [&](const tbb::blocked_range<size_t>& range) { each(rays.some(range.begin(), range.size(), rooms.local())); });
+      [&](const tbb::blocked_range<size_t>& range) { each(rays.some(range.begin(), range.size(), rooms.local())); },
+      tbb::simple_partitioner{});  // no more at once than the caches hold
 }
 
 void find(const RaySource& rays, const BlockQuery& query, const BlockSource& source, const BlockSink& sink) {

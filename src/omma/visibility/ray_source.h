@@ -31,7 +31,8 @@ class RaySource {
   virtual int samples() const = 0;
   /// Neighbours are near to each other; some may be without rays.
   virtual size_t squares() const = 0;
-  /// What is returned lasts until `room` is used again, or as long as this object.
+  /// Callers ask for few at once: `room` grows with `count`. What is returned lasts until `room` is used again, or as
+  /// long as this object.
   virtual RaySquares some(size_t first, size_t count, RayRoom& room) const = 0;
 };
 

@@ -152,14 +152,17 @@ RayTree::RayTree(const RaySource& source) : size_(source.size()), samples_(sourc
   std::vector<char> filled(squares);
   constexpr size_t at_once = 16;
   tbb::enumerable_thread_specific<RayRoom> rooms;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, squares, at_once), [&](const tbb::blocked_range<size_t>& range) {
-    const RaySquares made = source.some(range.begin(), range.size(), rooms.local());
-    std::ranges::copy(made.blocks, blocks_.begin() + ptrdiff_t(range.begin() * count));
-    std::ranges::copy(made.borders, borders_.begin() + ptrdiff_t(range.begin()));
-    for (size_t i = 0; i < made.blocks.size(); ++i) {
-      filled[range.begin() + i / count] |= char(made.blocks[i].leaf_mask != 0);
-    }
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<size_t>(0, squares, at_once),
+      [&](const tbb::blocked_range<size_t>& range) {
+        const RaySquares made = source.some(range.begin(), range.size(), rooms.local());
+        std::ranges::copy(made.blocks, blocks_.begin() + ptrdiff_t(range.begin() * count));
+        std::ranges::copy(made.borders, borders_.begin() + ptrdiff_t(range.begin()));
+        for (size_t i = 0; i < made.blocks.size(); ++i) {
+          filled[range.begin() + i / count] |= char(made.blocks[i].leaf_mask != 0);
+        }
+      },
+      tbb::simple_partitioner{});
   keep(filled);
 }
 

@@ -6,6 +6,12 @@ const RaySource& RecentRays::of(const Camera& camera, const std::vector<glm::dve
   const auto patches = patches_.get(camera, [](const Camera& of) {
     return std::make_shared<const SquarePatches>(of, PixelRect{0, 0, of.size().width, of.size().height});
   });
+  // What is of a camera that is forgotten is asked for no more.
+  std::erase_if(passes_, [&](const Pass& pass) {
+    bool is_known = false;
+    patches_.each([&](const std::shared_ptr<const SquarePatches>& known) { is_known |= known == pass.patches; });
+    return !is_known;
+  });
   for (auto pass = passes_.begin(); pass != passes_.end(); ++pass) {
     if (pass->patches != patches || pass->shifts != shifts) continue;
     passes_.splice(passes_.begin(), passes_, pass);
@@ -18,7 +24,7 @@ const RaySource& RecentRays::of(const Camera& camera, const std::vector<glm::dve
 }
 
 void RecentRays::keep(Pass& pass) {
-  size_t kept = pass.rays.squares() * size_t(pass.rays.samples()) * sizeof(RayBlock);
+  size_t kept = pass.rays.squares() * (size_t(pass.rays.samples()) * sizeof(RayBlock) + sizeof(SquareBorder));
   if (kept > most_bytes) return;
   for (const Pass& other : passes_) kept += other.kept ? other.kept->bytes() : 0;
   for (auto oldest = passes_.rbegin(); kept > most_bytes && oldest != passes_.rend(); ++oldest) {
