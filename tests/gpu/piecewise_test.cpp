@@ -66,10 +66,15 @@ class PiecewiseTest : public GpuTest {
 };
 
 TEST_F(PiecewiseTest, VariantsDrawTheSamePicture) {
-  for (const char* scene_name : {"city:blocks=1", "room", "terrain:triangles=1000"}) {
+  constexpr const char* scenes[] = {"city:blocks=1", "room", "terrain:triangles=1000"};
+  const auto cameras = kinds_of_cameras();
+  for (size_t column = 0; column < std::size(scenes); ++column) {
+    const char* scene_name = scenes[column];
     const Scene scene = load_scene(scene_name);
     renderer().load(scene);
-    for (const auto& [name, camera] : kinds_of_cameras()) {
+    for (size_t row = 0; row < cameras.size(); ++row) {
+      if (!is_proved_today(row, column, std::size(scenes))) continue;
+      const auto& [name, camera] = cameras[row];
       const IntImage first = ids(camera, default_pose(scene), variants[0]);
       const FloatImage color = draw_color(camera, default_pose(scene), {.technique = variants[0]});
       for (const char* variant : variants) {
@@ -184,7 +189,9 @@ TEST_F(PiecewiseTest, TrianglesThatHoldThePoleTheAntipodeOrTheWholeView) {
       {{-0.01f, -50, -0.02f}, {40, 3, -3}, {-30, 20, 9}},  // through the axis, close by
       {{-1, -1, 3}, {1, -1, 3}, {0.2f, 1, 3}},             // across the seam
   };
-  for (const auto& triangle : triangles) {
+  const auto cameras = kinds_of_cameras();
+  for (size_t column = 0; column < std::size(triangles); ++column) {
+    const auto& triangle = triangles[column];
     SceneMaker maker;
     Material material = unlit({1, 0, 0, 1});
     material.double_sided = true;
@@ -197,7 +204,9 @@ TEST_F(PiecewiseTest, TrianglesThatHoldThePoleTheAntipodeOrTheWholeView) {
     const Scene scene = maker.finish();
     renderer().load(scene);
     const glm::dmat4 pose(1.0);
-    for (const auto& [name, camera] : kinds_of_cameras()) {
+    for (size_t row = 0; row < cameras.size(); ++row) {
+      if (!is_proved_today(row, column, std::size(triangles))) continue;
+      const auto& [name, camera] = cameras[row];
       const Camera pieces(approximate(camera).pieces);
       const IntImage first = ids(pieces, pose, variants[0]);
       const Verdict verdict = judge(Oracle(scene, pose), pieces, first, {.radius = 1.0 / 128.0, .cracks = true});

@@ -10,6 +10,7 @@
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 #include "tests/gpu/random_scenes.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {
@@ -85,11 +86,18 @@ TEST_F(SeveralSamplesTest, WeighFlatColoursAsSoManyPicturesDo) {
   const Scene scene = confetti(), slow = sample_by_sample(scene);
   const glm::dmat4 pose = pose_at({0.3, -0.2, 0.1}, 0.4, 0.2);
   const std::vector<NamedCamera> views = cameras({96, 72});
-  const int counts[] = {1, 2, 3, 4, 7, 16, 20, 33};
+  // The first of each view every day, so that each technique has several at once; the others by turns.
+  const int counts[] = {4, 1, 2, 3, 7, 16, 20, 33};
+  const auto is_counted = [&](size_t view, size_t count) {
+    return count == 0 || is_proved_today(view, count, std::size(counts));
+  };
   std::vector<FloatImage> truths;
   renderer().load(slow);
-  for (const auto& [name, camera] : views) {
-    for (const int samples : counts) {
+  for (size_t view = 0; view < views.size(); ++view) {
+    const auto& [name, camera] = views[view];
+    for (size_t count = 0; count < std::size(counts); ++count) {
+      if (!is_counted(view, count)) continue;
+      const int samples = counts[count];
       RenderStats stats;
       truths.push_back(
           look(camera, pose, {.technique = "raycast", .samples = samples, .background = backdrop}, &stats));
@@ -100,9 +108,12 @@ TEST_F(SeveralSamplesTest, WeighFlatColoursAsSoManyPicturesDo) {
   double worst = 0.0;
   for (const std::string technique : techniques_with_shifts) {
     auto truth = truths.begin();
-    for (const auto& [name, camera] : views) {
+    for (size_t view = 0; view < views.size(); ++view) {
+      const auto& [name, camera] = views[view];
       size_t other = 0;
-      for (const int samples : counts) {
+      for (size_t count = 0; count < std::size(counts); ++count) {
+        if (!is_counted(view, count)) continue;
+        const int samples = counts[count];
         const FloatImage& expected = *truth++;
         if (technique == "visibility:gpu" && samples != 4 && samples != 20) continue;  // slow without a GPU
         SCOPED_TRACE(fmt::format("{} samples, {}, {}", samples, name, technique));
