@@ -53,7 +53,7 @@ std::optional<double> last_radius_of(const Lens& lens) {
   if (!info.radial) return {};
   if (info.skewed) {
     const LensParameters plain = lens_parameters(info);
-    // Only what has all that could skew it at rest.
+    // Which parameters skew a lens it does not say: all of them have to be at rest.
     for (size_t i = 0; i < info.parameters.size(); ++i) {
       if (lens.parameters.k[i] != plain.k[i]) return {};
     }

@@ -115,32 +115,13 @@ void CameraRays::make_of(const Form& form, const glm::ivec2& first, std::span<Ra
   const glm::ivec2 inside = glm::ivec2(region.width(), region.height()) - first;
   bool any = false;
   for (size_t s = 0; s < blocks.size(); ++s) {
-    RayBlock& block = blocks[s];
-    for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
-      for (int i = 0; i < 16; ++i) {
-        const int column = RayBlock::x_of(leaf, i), row = RayBlock::y_of(leaf, i);
-        const bool is_inside = column < inside.x && row < inside.y;
-        const glm::vec3 d = is_inside ? ray(column, row, shifts_[s]) : glm::vec3(0.0f);
-        block.x[leaf][i] = d.x;
-        block.y[leaf][i] = d.y;
-        block.z[leaf][i] = d.z;
-      }
-    }
-    any |= finish_block(block);
+    const auto in_image = [&](int column, int row) {
+      return column < inside.x && row < inside.y ? ray(column, row, shifts_[s]) : glm::vec3(0.0f);
+    };
+    put_rays(in_image, blocks[s]);
+    any |= finish_block(blocks[s]);
   }
-  if (!any) return;
-  const auto put = [&](SquareBorder::Side side, int i, int column, int row) {
-    const glm::vec3 d = ray(column, row, shifts_.front());
-    border.x[side][i] = d.x;
-    border.y[side][i] = d.y;
-    border.z[side][i] = d.z;
-  };
-  for (int i = 0; i < RayBlock::side; ++i) {
-    put(SquareBorder::left, i, -1, i);
-    put(SquareBorder::right, i, RayBlock::side, i);
-    put(SquareBorder::above, i, i, -1);
-    put(SquareBorder::below, i, i, RayBlock::side);
-  }
+  if (any) put_border([&](int column, int row) { return ray(column, row, shifts_.front()); }, border);
 }
 
 }  // namespace omma

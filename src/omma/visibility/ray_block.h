@@ -39,6 +39,36 @@ struct alignas(64) SquareBorder {
   float x[4][RayBlock::side], y[4][RayBlock::side], z[4][RayBlock::side];  ///< by side; from the top or from the left
 };
 
+/// Puts the direction that `at(column, row)` gives for each pixel of a square into its block.
+template <typename At>
+void put_rays(const At& at, RayBlock& block) {
+  for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
+    for (int ray = 0; ray < 16; ++ray) {
+      const glm::vec3 d = at(RayBlock::x_of(leaf, ray), RayBlock::y_of(leaf, ray));
+      block.x[leaf][ray] = d.x;
+      block.y[leaf][ray] = d.y;
+      block.z[leaf][ray] = d.z;
+    }
+  }
+}
+
+/// The same for the pixels around it: columns and rows from -1 to RayBlock::side.
+template <typename At>
+void put_border(const At& at, SquareBorder& border) {
+  const auto put = [&](SquareBorder::Side side, int i, int column, int row) {
+    const glm::vec3 d = at(column, row);
+    border.x[side][i] = d.x;
+    border.y[side][i] = d.y;
+    border.z[side][i] = d.z;
+  };
+  for (int i = 0; i < RayBlock::side; ++i) {
+    put(SquareBorder::left, i, -1, i);
+    put(SquareBorder::right, i, RayBlock::side, i);
+    put(SquareBorder::above, i, i, -1);
+    put(SquareBorder::below, i, i, RayBlock::side);
+  }
+}
+
 /// Where the rays of a block begin, metres in the camera frame. The block sees the scene from its apex, in the middle
 /// of its rays' beginnings; they lie within `radius` of it.
 struct alignas(64) BlockOrigins {

@@ -23,35 +23,6 @@ glm::vec3 direction_at(const RayMap& rays, int x, int y) {
   return inside ? rays.directions[size_t(y) * size_t(rays.size.width) + size_t(x)] : glm::vec3(0.0f);
 }
 
-void take_rays(const RayMap& rays, RayBlock& block) {
-  for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
-    for (int ray = 0; ray < 16; ++ray) {
-      const glm::vec3 d =
-          direction_at(rays, block.pixel_x + RayBlock::x_of(leaf, ray), block.pixel_y + RayBlock::y_of(leaf, ray));
-      block.x[leaf][ray] = d.x;
-      block.y[leaf][ray] = d.y;
-      block.z[leaf][ray] = d.z;
-    }
-  }
-}
-
-SquareBorder border_of(const RayMap& rays, const RayBlock& block) {
-  SquareBorder border;
-  const auto put = [&](SquareBorder::Side side, int i, int x, int y) {
-    const glm::vec3 d = direction_at(rays, block.pixel_x + x, block.pixel_y + y);
-    border.x[side][i] = d.x;
-    border.y[side][i] = d.y;
-    border.z[side][i] = d.z;
-  };
-  for (int i = 0; i < RayBlock::side; ++i) {
-    put(SquareBorder::left, i, -1, i);
-    put(SquareBorder::right, i, RayBlock::side, i);
-    put(SquareBorder::above, i, i, -1);
-    put(SquareBorder::below, i, i, RayBlock::side);
-  }
-  return border;
-}
-
 void check(const RayMap& rays, std::span<const glm::vec3> origins) {
   if (!origins.empty() && origins.size() != rays.directions.size()) {
     throw CommandError("{} rays with {} origins; each has one, or none has", rays.directions.size(), origins.size());
@@ -133,14 +104,15 @@ RayTree::RayTree(const RayMap& rays, std::span<const glm::vec3> origins) : size_
   tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
     blocks_[i].pixel_x = places[i].x;
     blocks_[i].pixel_y = places[i].y;
-    take_rays(rays, blocks_[i]);
+    put_rays([&](int x, int y) { return direction_at(rays, places[i].x + x, places[i].y + y); }, blocks_[i]);
     filled[i] = char(finish_block(blocks_[i]));
   });
   keep(filled);
   borders_.resize(blocks_.size());
   origins_.resize(origins.empty() ? 0 : blocks_.size());
   tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t i) {
-    borders_[i] = border_of(rays, blocks_[i]);
+    const glm::ivec2 first(blocks_[i].pixel_x, blocks_[i].pixel_y);
+    put_border([&](int x, int y) { return direction_at(rays, first.x + x, first.y + y); }, borders_[i]);
     if (!origins.empty()) fill(rays.size, origins, blocks_[i], origins_[i]);
   });
 }
