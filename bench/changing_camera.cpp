@@ -28,7 +28,7 @@ constexpr const char* drawn[] = {"visibility:cpu", "image-based"};
 
 /// Each frame of it shows another camera, or the first one again; returns the milliseconds of drawing alone.
 struct Sequence {
-  Renderer& renderer;
+  const PreparedScene& prepared;
   const Scene& scene;
   const Change& change;
   std::string technique;
@@ -44,7 +44,7 @@ struct Sequence {
     options.samples = samples;
     constexpr Channel wanted[] = {Channel::color};
     RenderStats stats;
-    renderer.render(camera, look_at_worldFromCamera(scene.default_from, scene.default_to), wanted, options, &stats);
+    prepared.render(camera, look_at_worldFromCamera(scene.default_from, scene.default_to), wanted, options, &stats);
     return frame_ms(stats);
   }
 };
@@ -54,8 +54,7 @@ struct Sequence {
 nlohmann::json run_changing_camera(const Options& options) {
   const std::string name = options.scene.empty() ? "city" : options.scene;
   const Scene scene = load_scene(name);
-  Renderer renderer;
-  renderer.load(scene);
+  const PreparedScene prepared(Device(), scene);
   fmt::print("{}, {} x {}; making the camera is not counted.\n\n", name, size.width, size.height);
   fmt::print(
       "| camera | technique | samples | stands still, ms (10–90%) | changes, ms | × |\n|---|---|---|---|---|---|\n");
@@ -65,7 +64,7 @@ nlohmann::json run_changing_camera(const Options& options) {
       std::vector<Sequence> sequences;
       for (const char* technique : drawn) {
         for (const bool moves : {false, true}) {
-          sequences.push_back({renderer, scene, change, technique, samples, moves});
+          sequences.push_back({prepared, scene, change, technique, samples, moves});
         }
       }
       std::vector<std::function<double()>> runs;

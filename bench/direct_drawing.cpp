@@ -27,8 +27,8 @@ View view_of(const Pass& pass, Output output) {
 }  // namespace
 
 DirectDrawing::DirectDrawing(const Scene& scene)
-    : scene_(scene, context_), tools_{context_, scene_, programs_}, shadows_(tools_, scene_) {
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // as Renderer sets it
+    : scene_(scene, context_), index_(scene), tools_{context_, scene_, index_, programs_}, shadows_(tools_, scene_) {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // as Device sets it
   glEnable(GL_DEPTH_CLAMP);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }

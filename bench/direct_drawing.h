@@ -1,5 +1,5 @@
-// Drawing without a Renderer, for what pictures have no name for: depth alone, several cameras as one frame, a pipeline
-// that stops half way.
+// Drawing without a prepared scene, for what pictures have no name for: depth alone, several cameras as one frame, a
+// pipeline that stops half way.
 #pragma once
 
 #include <map>
@@ -49,6 +49,7 @@ class DirectDrawing {
 
   gl::Context context_;
   GpuScene scene_;
+  LazySceneIndex index_;
   ProgramCache programs_;
   DrawTools tools_;
   ShadowMaps shadows_;

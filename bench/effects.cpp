@@ -7,7 +7,7 @@
 #include "bench/measure_lines.h"
 #include "omma/base/error.h"
 #include "omma/math/pose.h"
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma::bench {
 namespace {
@@ -37,25 +37,25 @@ struct Measured {
 };
 
 /// Nothing where the technique cannot draw the camera.
-std::optional<Measured> measure(Renderer& renderer, const Scene& white, const Scene& black, const Camera& camera,
+std::optional<Measured> measure(const PreparedScene& white, const PreparedScene& black, const Camera& camera,
                                 const glm::dmat4& pose, const std::string& technique) {
-  const auto draw = [&](const char* scene_technique, Channel channel, const std::string& effect) {
+  const auto draw = [&](const PreparedScene& scene, const char* scene_technique, Channel channel,
+                        const std::string& effect) {
     RenderOptions options;
     options.technique = scene_technique;
     if (!effect.empty()) options.effects.push_back(make_effect(effect));
     const Channel wanted[] = {channel};
-    return std::get<FloatImage>(renderer.render(camera, pose, wanted, options).at(channel));
+    return std::get<FloatImage>(scene.render(camera, pose, wanted, options).at(channel));
   };
   try {
-    renderer.load(white);
-    const FloatImage wires = draw(technique.c_str(), Channel::color, fmt::format("wireframe:width_px={}", line_px));
-    renderer.load(black);
+    const FloatImage wires =
+        draw(white, technique.c_str(), Channel::color, fmt::format("wireframe:width_px={}", line_px));
     const FloatImage hatched =
-        draw(technique.c_str(), Channel::color,
+        draw(black, technique.c_str(), Channel::color,
              fmt::format("hatching:width_px={},spacing_px={},crossing=1", stroke_px, spacing_px));
-    const FloatImage uv = draw("raycast", Channel::uv, "");
+    const FloatImage uv = draw(black, "raycast", Channel::uv, "");
     const Strokes strokes = measure_strokes(hatched, uv);
-    return Measured{spread_of(edge_line_widths(wires, white, camera, pose)), spread_of(strokes.spacings),
+    return Measured{spread_of(edge_line_widths(wires, white.scene(), camera, pose)), spread_of(strokes.spacings),
                     spread_of(strokes.widths)};
   } catch (const CommandError&) {
     return std::nullopt;
@@ -87,14 +87,14 @@ nlohmann::json run_effects(const Options&) {
       "raycast |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   // Off the ball's centre and tilted: lines at many distances and angles.
   const glm::dmat4 pose = look_at_worldFromCamera({1.5, 0.8, 1.0}, {-1.0, 0.3, -2.0}, {0.3, 1.0, 0.1});
-  const Scene white = make_measuring_ball(1.0f), black = make_measuring_ball(0.0f);
-  Renderer renderer;
+  const Device device;
+  const PreparedScene white(device, make_measuring_ball(1.0f)), black(device, make_measuring_ball(0.0f));
   nlohmann::json rows = nlohmann::json::array();
   for (const char* text : cameras) {
     const Camera camera = make_camera(text, size);
     std::optional<Measured> baseline;
     for (const std::string& technique : compared()) {
-      const std::optional<Measured> measured = measure(renderer, white, black, camera, pose, technique);
+      const std::optional<Measured> measured = measure(white, black, camera, pose, technique);
       if (!measured) continue;
       if (!baseline) baseline = measured;
       fmt::print("| `{}` | {} | {} | {} | {} |\n", text, technique, to_text(measured->line, baseline->line),

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "omma/camera/camera.h"
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma::bench {
 

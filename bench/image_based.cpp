@@ -6,7 +6,7 @@
 
 #include "bench/frame.h"
 #include "omma/math/pose.h"
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma::bench {
 namespace {
@@ -30,7 +30,8 @@ constexpr Configuration configurations[] = {
     {"cylinder:fov_deg=360", "raycast"},
 };
 
-nlohmann::json run_filter(const Options& options, const Scene& scene, Renderer& renderer, Filter filter, int samples) {
+nlohmann::json run_filter(const Options& options, const Scene& scene, const PreparedScene& prepared, Filter filter,
+                          int samples) {
   constexpr ImageSize size{1600, 1200};
   const glm::dmat4 pose = look_at_worldFromCamera(scene.default_from, scene.default_to);
   std::vector<Camera> cameras;
@@ -45,7 +46,7 @@ nlohmann::json run_filter(const Options& options, const Scene& scene, Renderer& 
       render_options.filter = filter;
       render_options.samples = samples;
       constexpr Channel wanted[] = {Channel::color};
-      renderer.render(cameras[i], pose, wanted, render_options, &stats[i]);
+      prepared.render(cameras[i], pose, wanted, render_options, &stats[i]);
       return frame_ms(stats[i]);
     });
   }
@@ -84,13 +85,12 @@ nlohmann::json run_filter(const Options& options, const Scene& scene, Renderer& 
 
 nlohmann::json run_image_based(const Options& options) {
   const Scene scene = load_scene("city");
-  Renderer renderer;
-  renderer.load(scene);
+  const PreparedScene prepared(Device(), scene);
   fmt::print("Scene `city`, {} triangles.\n", scene.triangle_count());
   nlohmann::json result = nlohmann::json::array();
   for (Filter filter : {Filter::trilinear, Filter::anisotropic}) {
     for (int samples : {1, 4}) {
-      for (auto& row : run_filter(options, scene, renderer, filter, samples)) result.push_back(row);
+      for (auto& row : run_filter(options, scene, prepared, filter, samples)) result.push_back(row);
     }
   }
   return result;

@@ -9,7 +9,7 @@
 #include "bench/frame.h"
 #include "omma/image/write.h"
 #include "omma/math/pose.h"
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma::bench {
 namespace {
@@ -79,8 +79,8 @@ Configuration piecewise(const Camera& camera, const std::string& variant, const 
 }
 
 /// One table. The fastest of the image-based configurations is what others are compared with, and the planar one.
-nlohmann::json measure(const std::string& title, const Options& options, Renderer& renderer, const glm::dmat4& pose,
-                       std::vector<Configuration> configurations, Filter filter, int samples) {
+nlohmann::json measure(const std::string& title, const Options& options, const PreparedScene& prepared,
+                       const glm::dmat4& pose, std::vector<Configuration> configurations, Filter filter, int samples) {
   std::vector<RenderStats> stats(configurations.size());
   std::vector<std::function<double()>> runs;
   for (size_t i = 0; i < configurations.size(); ++i) {
@@ -88,7 +88,7 @@ nlohmann::json measure(const std::string& title, const Options& options, Rendere
     configurations[i].options.samples = samples;
     runs.push_back([&, i] {
       constexpr Channel wanted[] = {Channel::color};
-      renderer.render(configurations[i].camera, pose, wanted, configurations[i].options, &stats[i]);
+      prepared.render(configurations[i].camera, pose, wanted, configurations[i].options, &stats[i]);
       return frame_ms(stats[i]);
     });
   }
@@ -140,7 +140,7 @@ void append(nlohmann::json& all, const nlohmann::json& rows) {
 }
 
 /// Table 1: the 360° cylinder in 160 strips, and camera textures.
-void run_table(nlohmann::json& all, const Options& options, Renderer& renderer, const glm::dmat4& pose) {
+void run_table(nlohmann::json& all, const Options& options, const PreparedScene& prepared, const glm::dmat4& pose) {
   const Camera cylinder = make_camera("cylinder:fov_deg=360", size);
   std::vector<Configuration> panorama{planar()};
   for (const int face_size : {0, 2048}) {  // the paper's faces are of 2048
@@ -153,8 +153,8 @@ void run_table(nlohmann::json& all, const Options& options, Renderer& renderer, 
   panorama.back().label += ", tolerance 0.25 px";
 
   const auto run = [&](const std::string& title, const std::vector<Configuration>& configurations) {
-    append(all, measure(title, options, renderer, pose, configurations, Filter::trilinear, 1));
-    append(all, measure(title, options, renderer, pose, configurations, Filter::anisotropic, 4));
+    append(all, measure(title, options, prepared, pose, configurations, Filter::trilinear, 1));
+    append(all, measure(title, options, prepared, pose, configurations, Filter::anisotropic, 4));
   };
   run("360° cylinder, 160 pieces", panorama);
   for (const ImageSize texels : {ImageSize{80, 60}, ImageSize{128, 128}}) {
@@ -170,7 +170,8 @@ void run_table(nlohmann::json& all, const Options& options, Renderer& renderer, 
   }
 }
 
-void run_growth_with_pieces(nlohmann::json& all, const Options& options, Renderer& renderer, const glm::dmat4& pose) {
+void run_growth_with_pieces(nlohmann::json& all, const Options& options, const PreparedScene& prepared,
+                            const glm::dmat4& pose) {
   const Camera fisheye = make_camera("equidistant:fov_deg=180", size);
   for (const int count : {20, 200, 2000, 20000}) {
     std::vector<Configuration> configurations{image_based(fisheye, "seen", 0)};
@@ -178,23 +179,23 @@ void run_growth_with_pieces(nlohmann::json& all, const Options& options, Rendere
       if (std::string(variant) == "naive" && count > 200) continue;  // seconds a frame, then minutes
       configurations.push_back(piecewise(fisheye, variant, {.count = count}));
     }
-    append(all, measure(fmt::format("180° fisheye in about {} pieces", count), options, renderer, pose, configurations,
+    append(all, measure(fmt::format("180° fisheye in about {} pieces", count), options, prepared, pose, configurations,
                         Filter::trilinear, 1));
   }
 }
 
-void run_growth_with_triangles(nlohmann::json& all, const Options& options, Renderer& renderer) {
+void run_growth_with_triangles(nlohmann::json& all, const Options& options, const Device& device) {
   const Camera fisheye = make_camera("equidistant:fov_deg=180", size);
   for (const char* name : {"city", "city:blocks=16", "city:blocks=30", "city:blocks=57"}) {
-    const Scene scene = load_scene(name);
-    renderer.load(scene);
+    const PreparedScene prepared(device, load_scene(name));
+    const Scene& scene = prepared.scene();
     const glm::dmat4 pose = look_at_worldFromCamera(scene.default_from, scene.default_to);
     std::vector<Configuration> configurations{planar(), image_based(fisheye, "seen", 0)};
     for (const char* variant : {"compute", "feedback", "tessellator"}) {
       configurations.push_back(piecewise(fisheye, variant, {}));
     }
     append(all, measure(fmt::format("180° fisheye, tolerance 0.25 px, {} triangles", scene.triangle_count()), options,
-                        renderer, pose, configurations, Filter::trilinear, 1));
+                        prepared, pose, configurations, Filter::trilinear, 1));
   }
 }
 
@@ -202,15 +203,15 @@ void run_growth_with_triangles(nlohmann::json& all, const Options& options, Rend
 
 nlohmann::json run_piecewise(const Options& options) {
   const Scene scene = load_scene("city");
-  Renderer renderer;
-  renderer.load(scene);
+  const Device device;
+  const PreparedScene prepared(device, scene);
   const glm::dmat4 pose = look_at_worldFromCamera(scene.default_from, scene.default_to);
   fmt::print("Scene `city`, {} triangles, {} materials, {} x {}.\n", scene.triangle_count(), scene.materials.size(),
              size.width, size.height);
   nlohmann::json all = nlohmann::json::array();
-  run_table(all, options, renderer, pose);
-  run_growth_with_pieces(all, options, renderer, pose);
-  run_growth_with_triangles(all, options, renderer);
+  run_table(all, options, prepared, pose);
+  run_growth_with_pieces(all, options, prepared, pose);
+  run_growth_with_triangles(all, options, device);
   return all;
 }
 

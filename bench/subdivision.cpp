@@ -5,7 +5,7 @@
 #include "bench/frame.h"
 #include "omma/image/compare.h"
 #include "omma/math/pose.h"
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma::bench {
 namespace {
@@ -25,10 +25,10 @@ struct Frame {
 };
 
 /// Share of pixels that show another triangle than a ray meets.
-double wrong_ids(Renderer& renderer, const Frame& frame, const glm::dmat4& pose) {
+double wrong_ids(const PreparedScene& prepared, const Frame& frame, const glm::dmat4& pose) {
   constexpr Channel wanted[] = {Channel::id};
   const auto ids = [&](const std::string& technique) {
-    return std::get<IntImage>(renderer.render(frame.camera, pose, wanted, {.technique = technique}).at(Channel::id));
+    return std::get<IntImage>(prepared.render(frame.camera, pose, wanted, {.technique = technique}).at(Channel::id));
   };
   return compare_images(ids(frame.technique), ids("raycast"), Scale::raw).mismatch_share;
 }
@@ -36,8 +36,7 @@ double wrong_ids(Renderer& renderer, const Frame& frame, const glm::dmat4& pose)
 void run_scene(nlohmann::json& rows, const Options& options, int triangles) {
   const Scene scene = load_scene(fmt::format("terrain:triangles={}", triangles));
   const glm::dmat4 pose = look_at_worldFromCamera(scene.default_from, scene.default_to);
-  Renderer renderer;
-  renderer.load(scene);
+  const PreparedScene prepared(Device(), scene);
   std::vector<Frame> frames;
   for (const char* technique : drawn) {
     frames.push_back({technique, make_camera(technique == planar ? "perspective:fov_deg=90" : lens, size)});
@@ -47,7 +46,7 @@ void run_scene(nlohmann::json& rows, const Options& options, int triangles) {
     runs.push_back([&] {
       constexpr Channel wanted[] = {Channel::color};
       const RenderOptions render{.technique = frame.technique, .samples = 1, .filter = Filter::trilinear};
-      renderer.render(frame.camera, pose, wanted, render, &frame.stats);
+      prepared.render(frame.camera, pose, wanted, render, &frame.stats);
       return frame_ms(frame.stats);
     });
   }
@@ -65,7 +64,7 @@ void run_scene(nlohmann::json& rows, const Options& options, int triangles) {
     const Frame& frame = frames[i];
     const Timing timing = timing_of(times[i]), to_planar = ratio_of(times[i], times[0]),
                  to_images = ratio_of(times[i], times[images]);
-    const double wrong = wrong_ids(renderer, frame, pose);
+    const double wrong = wrong_ids(prepared, frame, pose);
     fmt::print("| {} | {} | {} | {} | {:.0f} | {:.2f}% | {} |\n", frame.technique, to_text(timing),
                ratio_text(to_planar), ratio_text(to_images), 1e-3 * double(frame.stats.triangles_drawn), 100.0 * wrong,
                stages_text(frame.stats));

@@ -11,7 +11,7 @@
 #include "bench/frame.h"
 #include "omma/camera/ray_bundle.h"
 #include "omma/math/pose.h"
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma::bench {
 namespace {
@@ -37,13 +37,13 @@ double milliseconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Waves run over every mesh.
-void move_vertices(Scene& scene, int frame) {
-  for (Mesh& mesh : scene.meshes) {
-    for (size_t i = 0; i < mesh.positions.size(); ++i) {
-      const glm::vec3& rest = mesh.rest_positions[i];
-      mesh.positions[i] = rest + glm::vec3(0.0f, 0.05f * std::sin(rest.x + 0.1f * float(frame)), 0.0f);
-    }
+/// By its animation, or waves run over every mesh of the scene at rest.
+void move(SceneEdit& scene, const Scene& rest, int frame) {
+  if (!rest.animations.empty()) return scene.set_time(frame / 24.0);
+  for (size_t m = 0; m < rest.meshes.size(); ++m) {
+    std::vector<glm::vec3> positions = rest.meshes[m].positions;
+    for (glm::vec3& p : positions) p.y += 0.05f * std::sin(p.x + 0.1f * float(frame));
+    scene.set_vertices(int(m), positions);
   }
 }
 
@@ -55,21 +55,18 @@ struct Way {
   RenderStats stats{};
 };
 
-/// All ways to draw one scene. Where it moves, each has a renderer of its own: none pays for what others follow.
+/// All ways to draw one scene. Where it moves, each has one prepared of its own: none pays for what others follow.
 class Contest {
  public:
   Contest(Scene& scene, const Case& tested) : scene_(scene), tested_(tested) {
     options_.filter = tested.filter;
     options_.samples = 1;
-    if (tested.moving && scene.animations.empty()) {
-      for (Mesh& mesh : scene.meshes) mesh.rest_positions = mesh.positions;
-    }
-    if (!tested.moving) add_renderer();
+    if (!tested.moving) prepare();
     std::vector<const char*> drawn(std::begin(techniques_drawn), std::end(techniques_drawn));
     if (tested.slow) drawn.insert(drawn.end(), std::begin(slow_techniques), std::end(slow_techniques));
     for (const char* technique : drawn) {
-      if (tested.moving) add_renderer();
-      add(technique, *renderers_.back());
+      if (tested.moving) prepare();
+      add(technique, *prepared_.back());
     }
     add_embree();
   }
@@ -77,22 +74,19 @@ class Contest {
   nlohmann::json run(int runs);
 
  private:
-  void add_renderer() {
-    renderers_.push_back(std::make_unique<Renderer>());
-    renderers_.back()->load(scene_);
-  }
+  void prepare() { prepared_.push_back(std::make_unique<PreparedScene>(device_, scene_)); }
 
-  void add(const std::string& technique, Renderer& renderer) {
+  void add(const std::string& technique, PreparedScene& prepared) {
     const char* camera = technique == planar ? "perspective:fov_deg=90" : lens;
     ways_.push_back(std::make_unique<Way>(Way{technique, make_camera(camera, size), {}}));
     Way& way = *ways_.back();
-    way.frame = [this, &way, &renderer] {
-      const double follow_ms = follow([&] { renderer.update(); });
+    way.frame = [this, &way, &prepared] {
+      // Moving is not counted, following is: the first of the frame's stages.
+      if (tested_.moving) prepared.edit([&](SceneEdit& scene) { move(scene, rest_, ++frame_); });
       RenderOptions options = options_;
       options.technique = way.name;
       constexpr Channel wanted[] = {Channel::color};
-      renderer.render(way.camera, pose_, wanted, options, &way.stats);
-      if (tested_.moving) way.stats.stage_ms.insert(way.stats.stage_ms.begin(), {"follow", follow_ms});
+      prepared.render(way.camera, pose_, wanted, options, &way.stats);
       return frame_ms(way.stats);
     };
   }
@@ -104,34 +98,30 @@ class Contest {
     colors_.resize(rays_.directions.size());
     embree_ = std::make_unique<FlatEmbree>(scene_, pose_, true);
     way.frame = [this, &way] {
-      const double build_ms = follow([&] { embree_ = std::make_unique<FlatEmbree>(scene_, pose_, true); });
-      const auto begin = std::chrono::steady_clock::now();
+      double build_ms = 0.0;
+      auto begin = std::chrono::steady_clock::now();
+      if (tested_.moving) {
+        SceneChanges changes;
+        SceneEdit edit(scene_, changes);
+        move(edit, rest_, ++frame_);
+        begin = std::chrono::steady_clock::now();
+        embree_ = std::make_unique<FlatEmbree>(scene_, pose_, true);
+        build_ms = milliseconds_since(begin);
+        begin = std::chrono::steady_clock::now();
+      }
       embree_->lambert(rays_.directions, rays_.size.width, colors_);
       way.stats.stage_ms = {{"build", build_ms}, {"trace and shade", milliseconds_since(begin)}};
       return frame_ms(way.stats);
     };
   }
 
-  /// Moves the scene, uncounted, and lets `update` follow. Milliseconds of that; 0 where nothing moves.
-  template <typename Update>
-  double follow(const Update& update) {
-    if (!tested_.moving) return 0.0;
-    ++frame_;
-    if (scene_.animations.empty()) {
-      move_vertices(scene_, frame_);
-    } else {
-      set_time(scene_, frame_ / 24.0);
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    update();
-    return milliseconds_since(begin);
-  }
-
   Scene& scene_;
+  const Scene rest_ = scene_;
   Case tested_;
   glm::dmat4 pose_ = look_at_worldFromCamera(scene_.default_from, scene_.default_to);
   RenderOptions options_;
-  std::vector<std::unique_ptr<Renderer>> renderers_;
+  const Device device_;
+  std::vector<std::unique_ptr<PreparedScene>> prepared_;
   std::vector<std::unique_ptr<Way>> ways_;
   RayMap rays_;
   std::vector<glm::vec3> colors_;
@@ -202,15 +192,14 @@ nlohmann::json run_channels(const std::string& name, int runs) {
   const Camera camera = make_camera(lens, size);
   constexpr Channel wanted[] = {Channel::id, Channel::distance};
   constexpr const char* drawn[] = {"visibility:cpu", "raycast", "image-based:seen"};
-  Renderer renderer;
-  renderer.load(scene);
+  const PreparedScene prepared(Device(), scene);
   std::vector<std::string> names;
   std::vector<std::function<double()>> frames;
   for (const char* technique : drawn) {
     names.emplace_back(technique);
     frames.emplace_back([&, technique] {
       RenderStats took;
-      renderer.render(camera, pose, wanted, {.technique = technique}, &took);
+      prepared.render(camera, pose, wanted, {.technique = technique}, &took);
       return frame_ms(took);
     });
   }

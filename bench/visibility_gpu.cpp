@@ -41,12 +41,12 @@ nlohmann::json measure(const gl::Context& context, const Case& tested, const Opt
   const RayTree tree(rays_of(camera));
   const GpuScene gpu_scene(scene, context);
   ProgramCache programs;
-  DrawTools tools{context, gpu_scene, programs};
+  const LazySceneIndex index(scene);
+  DrawTools tools{context, gpu_scene, index, programs};
   const GpuRays rays(tree, context.limits());
   GpuFinder gpu(tools);
-  Finder cpu(scene);
   gpu.set_view(pose);
-  cpu.set_view(pose);
+  const Finder cpu(index.get(), pose);
   std::vector<glm::uvec2> found(size_t(tested.size.width) * size_t(tested.size.height));
   VisibleTriangles visible;
   const std::vector<std::function<double()>> runs = {

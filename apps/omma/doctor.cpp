@@ -15,8 +15,8 @@
 #include "omma/gl/context.h"
 #include "omma/image/codec/decode.h"
 #include "omma/math/pose.h"
+#include "omma/render/prepared_scene.h"
 #include "omma/technique/registry.h"
-#include "omma/technique/renderer.h"
 
 namespace omma::tool {
 namespace {
@@ -76,15 +76,15 @@ void print_context(const gl::Context& context) {
 }
 
 /// Draws a small picture and says how that went. Returns whether there is one.
-bool try_technique(Renderer& renderer, const Scene& scene, const std::string& technique) {
+bool try_technique(const PreparedScene& scene, const std::string& technique) {
   const Camera camera = make_camera("perspective:fov_deg=90", ImageSize{64, 64});
-  const glm::dmat4 worldFromCamera = look_at_worldFromCamera(scene.default_from, scene.default_to);
+  const glm::dmat4 worldFromCamera = look_at_worldFromCamera(scene.scene().default_from, scene.scene().default_to);
   const Channel channels[] = {Channel::color};
   RenderOptions options;
   options.technique = technique;
   try {
     const auto begin = std::chrono::steady_clock::now();
-    renderer.render(camera, worldFromCamera, channels, options);
+    scene.render(camera, worldFromCamera, channels, options);
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
     fmt::print("  {:<24}works, {:.1f} ms\n", technique, time.count());
     return true;
@@ -96,14 +96,12 @@ bool try_technique(Renderer& renderer, const Scene& scene, const std::string& te
 
 bool try_techniques() {
   fmt::print("techniques (first picture of 64 x 64 pixels, programs being compiled)\n");
-  const Scene scene = load_scene("facade");
-  Renderer renderer;
-  renderer.load(scene);
+  const PreparedScene scene(Device(), load_scene("facade"));
   bool all = true;
   for (const TechniqueInfo& technique : techniques()) {
-    if (technique.variants.empty()) all &= try_technique(renderer, scene, technique.name);
+    if (technique.variants.empty()) all &= try_technique(scene, technique.name);
     for (const VariantInfo& variant : technique.variants) {
-      all &= try_technique(renderer, scene, technique.name + ":" + variant.name);
+      all &= try_technique(scene, technique.name + ":" + variant.name);
     }
   }
   return all;

@@ -8,8 +8,8 @@
 #include "commands.h"
 #include "omma/base/error.h"
 #include "omma/base/names.h"
+#include "omma/probe/probe_file.h"
 #include "omma/scene/object.h"
-#include "omma/technique/probe/probe_file.h"
 #include "omma/technique/registry.h"
 #include "progress.h"
 
@@ -88,9 +88,8 @@ void run(const ProbeCommand& command) {
   Scene scene = load_scene(command.scene);
   if (command.time) set_time(scene, parse_number("--time", *command.time));
   if (command.vertices) places = object_mesh(scene, find_object(scene, *command.vertices));
-  Renderer renderer;
-  renderer.load(scene);
-  Prober prober(renderer, options);
+  const PreparedScene prepared(Device(), std::move(scene));
+  Prober prober(prepared, options);
   std::vector<ProbeResult> results(places.points.size());
   const auto begin = std::chrono::steady_clock::now();
   {

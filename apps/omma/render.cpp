@@ -15,9 +15,9 @@
 #include "omma/base/numbered_name.h"
 #include "omma/camera/deformation/deformation.h"
 #include "omma/image/write.h"
+#include "omma/render/prepared_scene.h"
 #include "omma/scene/object.h"
 #include "omma/technique/registry.h"
-#include "omma/technique/renderer.h"
 #include "outputs.h"
 #include "progress.h"
 #include "stats.h"
@@ -194,17 +194,16 @@ class Job {
     }
     if (reflect_) render_options_.reflect = find_object(scene, *reflect_);
     view_.stand(scene, camera_);
-    view_.apply_time(scene, frames.front());
+    if (const auto time = view_.time_of(scene, frames.front())) set_time(scene, *time, view_.animation());
     if (const std::string choice = view_.unspoken_choice(scene); !choice.empty()) {
       fmt::print(stderr, "{}\n", choice);
     }
     view_.worldFromCamera(scene, frames.front());  // fails before anything slow
     stats.load_ms = milliseconds_since(begin);
 
-    Renderer renderer;
-    renderer.load(scene);
+    PreparedScene prepared(Device(), std::move(scene));
     if (frames.size() == 1) {
-      stats.frames.push_back(write(draw(renderer, scene, frames.front())));
+      stats.frames.push_back(write(draw(prepared, frames.front())));
       stats.setup_ms = stats.frames.back().render.setup_ms;
       report(stats.frames.back());
       return;
@@ -221,8 +220,8 @@ class Job {
       progress.step();
     };
     for (const Frame& frame : frames) {
-      if (view_.apply_time(scene, frame)) renderer.update();
-      DrawnFrame drawn = draw(renderer, scene, frame);
+      if (const auto time = view_.time_of(prepared.scene(), frame)) prepared.set_time(*time, view_.animation());
+      DrawnFrame drawn = draw(prepared, frame);
       finish();
       writing = std::async(std::launch::async,
                            [this, drawn = std::move(drawn)]() mutable { return write(std::move(drawn)); });
@@ -236,13 +235,13 @@ class Job {
     std::optional<PanoramaPlace> panorama;
   };
 
-  DrawnFrame draw(Renderer& renderer, const Scene& scene, const Frame& frame) const {
+  DrawnFrame draw(const PreparedScene& scene, const Frame& frame) const {
     DrawnFrame drawn;
     drawn.stats.frame = frame.number;
     const Camera camera = camera_of(frame);
     const auto begin = std::chrono::steady_clock::now();
-    const glm::dmat4 worldFromCamera = view_.worldFromCamera(scene, frame);
-    drawn.images = renderer.render(camera, worldFromCamera, channels_, render_options_, &drawn.stats.render);
+    const glm::dmat4 worldFromCamera = view_.worldFromCamera(scene.scene(), frame);
+    drawn.images = scene.render(camera, worldFromCamera, channels_, render_options_, &drawn.stats.render);
     drawn.stats.render_ms = milliseconds_since(begin) - drawn.stats.render.setup_ms;
     drawn.panorama = panorama_place(camera, worldFromCamera);
     return drawn;

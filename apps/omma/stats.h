@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma::tool {
 

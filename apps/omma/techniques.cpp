@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma::tool {
 

@@ -86,10 +86,9 @@ void View::set_frames_from_time(const ViewOptions& options) {
   sequence_ = true;
 }
 
-bool View::apply_time(Scene& scene, const Frame& frame) const {
-  if (animation_.empty() && (!frame.time || scene.animations.empty())) return false;
-  set_time(scene, frame.time.value_or(0.0), animation_);
-  return true;
+std::optional<double> View::time_of(const Scene& scene, const Frame& frame) const {
+  if (animation_.empty() && (!frame.time || scene.animations.empty())) return std::nullopt;
+  return frame.time.value_or(0.0);
 }
 
 bool View::needs_default(const Scene& scene) const {
@@ -101,7 +100,7 @@ void View::stand(Scene& scene, const Camera& camera) {
   // As the animation begins: a picture of one time shows what the same frame of a sequence does.
   Frame begin = frames_.front();
   if (begin.time) begin.time = 0.0;
-  apply_time(scene, begin);
+  if (const auto time = time_of(scene, begin)) set_time(scene, *time, animation_);
   if (needs_default(scene)) default_ = default_viewpoint(scene, camera);
 }
 

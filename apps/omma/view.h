@@ -38,8 +38,9 @@ class View {
   /// The command says at what time the scene is to be shown.
   bool names_time() const { return names_time_; }
 
-  /// Moves the scene to the frame's time. Returns whether anything moved.
-  bool apply_time(Scene& scene, const Frame& frame) const;
+  /// What the scene's clock shows in a frame, of which of its animations; nothing where none moves it.
+  std::optional<double> time_of(const Scene& scene, const Frame& frame) const;
+  const std::string& animation() const { return animation_; }
   /// Chooses where to stand when the command does not say: for all frames where one would as the animation
   /// begins, at which the scene is left.
   void stand(Scene& scene, const Camera& camera);

@@ -6,8 +6,8 @@
 #include "omma/camera/camera.h"
 #include "omma/image/write.h"
 #include "omma/math/pose.h"
+#include "omma/render/prepared_scene.h"
 #include "omma/scene/scene.h"
-#include "omma/technique/renderer.h"
 #include "omma/viewpoint/viewpoint.h"
 
 int main(int argc, char** argv) {

@@ -158,7 +158,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
       expect(false, finder + ": " + verdict.first_wrong + " through " + to_text(camera) + to_text(scene));
     if (!agreed) agreed = ids;
   };
-  Finder finder(scene);
+  const LazySceneIndex index(scene);
+  const Finder finder(index.get(), glm::dmat4(1.0));
   std::vector<glm::uvec2> hits(rays.directions.size());
   for (const std::string& target : simd_targets()) {
     use_simd_target(target);
@@ -169,7 +170,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   if (context == nullptr) return 0;
   const GpuScene gpu_scene(scene, *context);
   ProgramCache programs;
-  DrawTools tools{*context, gpu_scene, programs};
+  DrawTools tools{*context, gpu_scene, index, programs};
   GpuFinder gpu(tools);
   gpu.set_view(glm::dmat4(1.0));
   check("gpu", gpu.nearest(GpuRays(tree, context->limits()), Solid::opaque).hits);

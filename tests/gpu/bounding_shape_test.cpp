@@ -197,7 +197,7 @@ TEST_F(BoundingShapesTest, DrawWhatRaysMeet) {
     if (!is_proved_today(row)) continue;
     const auto& [name, camera] = cameras[row];
     SCOPED_TRACE(name);
-    renderer().load(scene);
+    prepare(scene);
     const IntImage ids = draw_ids(camera, pose, "nonlinear:triangle");
     EXPECT_EQ(ids.values, draw_ids(camera, pose, "nonlinear:quad").values);
     const Verdict verdict = judge(oracle, camera, ids, {.radius = 5e-3});
@@ -205,7 +205,7 @@ TEST_F(BoundingShapesTest, DrawWhatRaysMeet) {
     edges += verdict.edges;
     ties += verdict.ties;
 
-    renderer().load(veiled);
+    prepare(veiled);
     const FloatImage a = draw_color(camera, pose, {.technique = "nonlinear:triangle"});
     const FloatImage b = draw_color(camera, pose, {.technique = "nonlinear:quad"});
     size_t differences = 0;

@@ -31,7 +31,7 @@ TEST_P(ClosedSceneTest, HasNoHoles) {
   const auto [name, camera] = all_cameras(120)[GetParam()];
   const Scene scene = load_scene("room");
   const Bounds bounds = scene.bounds();
-  renderer().load(scene);
+  prepare(scene);
   std::vector<std::string> able, names;
   for (const std::string& technique : names_of_techniques()) {
     // Vertices alone do not make a closed picture.

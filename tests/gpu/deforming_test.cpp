@@ -25,16 +25,15 @@ TEST_P(DeformingMeshTest, IsDrawnAsIfJustLoaded) {
   Mesh& ball = scene.meshes[size_t(scene.instances[0].mesh)];
   ball.rest_positions = ball.positions;
   ball.rest_normals = ball.normals;
-  renderer().load(scene);
-  Renderer fresh;
+  prepare(scene);
   const Camera camera = make_camera("equidistant:fov_deg=180,width=128,height=96");
   const Channel wanted[] = {Channel::id};
   std::optional<IntImage> before;
   for (int frame = 0; frame < 4; ++frame) {
     dent(ball, frame);
-    renderer().update();
+    follow(scene);
     const IntImage ids = draw_ids(camera, glm::dmat4(1.0), GetParam());
-    fresh.load(scene);
+    const PreparedScene fresh(device(), scene);
     const auto picture = fresh.render(camera, glm::dmat4(1.0), wanted, {.technique = GetParam()});
     EXPECT_EQ(share_of_differences(ids, std::get<IntImage>(picture.at(Channel::id))), 0.0) << frame;
     // The tolerance of those that have one, and what drivers round vertices by.

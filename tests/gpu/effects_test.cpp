@@ -58,7 +58,7 @@ TEST_P(EffectTechniquesTest, EveryEffectLooksAsInRaycast) {
   size_t pictures = 0, row = 0;
   double least = 1000.0;
   for (const Scene& scene : scenes) {
-    renderer().load(scene);
+    prepare(scene);
     const glm::dmat4 pose = default_pose(scene);
     ++row;  // seven cameras and as many days: each scene another effect
     for (const auto& [name, camera] : several_cameras()) {
@@ -99,7 +99,7 @@ class EffectsTest : public GpuTest {};
 
 TEST_F(EffectsTest, EveryParameterChangesThePicture) {
   const Scene scene = load_scene("facade:detail=1");
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = default_pose(scene);
   const Camera camera = make_camera("equidistant:fov_deg=120", ImageSize{160, 120});
   for (const EffectInfo& effect : effects()) {
@@ -122,7 +122,7 @@ TEST_F(EffectsTest, EveryParameterChangesThePicture) {
 
 TEST_F(EffectsTest, LabelsAndDistancesStayAsTheyAre) {
   const Scene scene = load_scene("facade:detail=1");
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = default_pose(scene);
   const Camera camera = make_camera("perspective:fov_deg=90", ImageSize{96, 64});
   const std::vector<std::string> techniques = technique_names();
@@ -141,7 +141,7 @@ TEST_F(EffectsTest, LabelsAndDistancesStayAsTheyAre) {
 
 TEST_F(EffectsTest, EffectsFollowOneAnotherAndEdgesComeLast) {
   const Scene scene = load_scene("facade:detail=0");
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = default_pose(scene);
   const Camera camera = make_camera("equidistant:fov_deg=120", ImageSize{96, 64});
   RenderOptions shown = with_effects({"hatching"});
@@ -180,7 +180,7 @@ constexpr Lens measured_lenses[] = {
 
 TEST_F(EffectsTest, LinesAreAsWideAsAskedFor) {
   const Scene white = bench::make_measuring_ball(1.0f);
-  renderer().load(white);
+  prepare(white);
   for (const auto& [text, technique] : measured_lenses) {
     const Camera camera = make_camera(text, ImageSize{900, 900});
     for (const double width : {1.0, 2.0, 5.0}) {
@@ -200,7 +200,7 @@ TEST_F(EffectsTest, LinesAreAsWideAsAskedFor) {
 
 TEST_F(EffectsTest, StrokesAreAsFarApartAsAskedFor) {
   const Scene black = bench::make_measuring_ball(0.0f);
-  renderer().load(black);
+  prepare(black);
   for (const auto& [text, technique] : measured_lenses) {
     const Camera camera = make_camera(text, ImageSize{900, 900});
     const auto uv =
@@ -225,7 +225,7 @@ TEST_F(EffectsTest, StrokesAreAsFarApartAsAskedFor) {
 
 TEST_F(EffectsTest, NoLineStraysFromItsEdgeAtPolesAndSeams) {
   const Scene white = bench::make_measuring_ball(1.0f);
-  renderer().load(white);
+  prepare(white);
   constexpr int clear = 3;  // pixels to any other triangle
   size_t all_interior = 0;
   for (const auto& [name, camera] : all_cameras(384)) {
@@ -264,7 +264,7 @@ TEST_F(EffectsTest, NoLineStraysFromItsEdgeAtPolesAndSeams) {
 
 TEST_F(EffectsTest, EveryEffectIsANumberEverywhere) {
   const Scene scene = load_scene("terrain:triangles=1000");
-  renderer().load(scene);
+  prepare(scene);
   const auto draw_all = [&](const std::string& technique, const auto& cameras) {
     for (size_t row = 0; row < cameras.size(); ++row) {
       const auto& [name, camera] = cameras[row];

@@ -44,9 +44,9 @@ TEST_P(FindersAgreeTest, InEveryCamera) {
   const gl::Context context;
   const GpuScene gpu_scene(scene, context);
   ProgramCache programs;
-  DrawTools tools{context, gpu_scene, programs};
+  const LazySceneIndex index(scene);
+  DrawTools tools{context, gpu_scene, index, programs};
   GpuFinder gpu(tools);
-  Finder cpu(scene);
   EmbreeScene embree(scene);
   std::mt19937 random(29);
   std::map<std::string, size_t> differences;
@@ -65,7 +65,7 @@ TEST_P(FindersAgreeTest, InEveryCamera) {
           *ids.at(int(i) % size.width, int(i) / size.width) = int32_t(id_of(i));
         }
       };
-      cpu.set_view(pose);
+      const Finder cpu(index.get(), pose);
       for (const std::string& target : simd_targets()) {
         use_simd_target(target);
         std::vector<glm::uvec2> found(rays.directions.size());

@@ -5,11 +5,11 @@
 
 #include "omma/base/error.h"
 #include "omma/camera/ray_bundle.h"
+#include "omma/render/prepared_scene.h"
 #include "omma/technique/image_based/cube.h"
 #include "omma/technique/mesh_pass.h"
 #include "omma/technique/planar/planar.h"
 #include "omma/technique/registry.h"
-#include "omma/technique/renderer.h"
 #include "tests/unit/camera_samples.h"
 
 namespace omma {

@@ -37,16 +37,20 @@ class GpuFinderTest : public ::testing::Test {
 /// Both finders over one scene, seen from one place.
 struct Finders {
   Finders(const Scene& scene, const gl::Context& gl, uint32_t most_entries = 1 << 20)
-      : gpu_scene(scene, gl), tools{gl, gpu_scene, programs}, gpu(tools, most_entries), cpu(scene), context(gl) {
+      : gpu_scene(scene, gl),
+        index(scene),
+        tools{gl, gpu_scene, index, programs},
+        gpu(tools, most_entries),
+        context(gl) {
     set_view(glm::dmat4(1.0));
   }
   void set_view(const glm::dmat4& pose) {
     gpu.set_view(pose);
-    cpu.set_view(pose);
+    cpu.emplace(index.get(), pose);
   }
   std::vector<glm::uvec2> by_cpu(const RayMap& rays, Solid solid = Solid::opaque) {
     std::vector<glm::uvec2> hits(rays.directions.size());
-    cpu.nearest(RayTree(rays), solid, hits);
+    cpu->nearest(RayTree(rays), solid, hits);
     return hits;
   }
   std::vector<glm::uvec2> by_gpu(const RayMap& rays, Solid solid = Solid::opaque) {
@@ -61,15 +65,16 @@ struct Finders {
     std::vector<glm::uvec2> hits(rays.directions.size());
     std::vector<float> distances(hits.size());
     const RayTree tree(rays);
-    cpu.nearest(tree, Solid::opaque, hits, distances);
-    return cpu.blended(tree, distances);
+    cpu->nearest(tree, Solid::opaque, hits, distances);
+    return cpu->blended(tree, distances);
   }
 
   GpuScene gpu_scene;
+  LazySceneIndex index;
   ProgramCache programs;
   DrawTools tools;
   GpuFinder gpu;
-  Finder cpu;
+  std::optional<Finder> cpu;
   const gl::Context& context;
 };
 
@@ -344,13 +349,15 @@ TEST_F(GpuFinderTest, DegenerateTrianglesAreNotSeen) {
 
 TEST_F(GpuFinderTest, FollowsWhatMoves) {
   Scene scene = random_soup(600, 31);
-  for (Mesh& mesh : scene.meshes) mesh.rest_positions = mesh.positions;
   Finders moved(scene, context());
   for (Mesh& mesh : scene.meshes) {
     for (glm::vec3& p : mesh.positions) p = glm::vec3(1.3f * p.z, p.x + 0.5f * p.y, p.y - 1.0f);
   }
   scene.instances[0].worldFromObject = glm::translate(glm::dmat4(1.0), glm::dvec3(0.5, 1.0, -2.0));
-  moved.gpu_scene.update();
+  SceneChanges changes{.moved = true};
+  for (size_t m = 0; m < scene.meshes.size(); ++m) changes.deformed.insert(int(m));
+  moved.index.update(changes);
+  moved.gpu_scene.update(changes);
   moved.gpu.update();
   moved.set_view(glm::dmat4(1.0));
   const RayMap rays = rays_of(make_camera("equidistant:fov_deg=220", ImageSize{200, 150}));
@@ -371,7 +378,7 @@ TEST_F(GpuVisibilityTest, DrawsThePicturesOfTheProcessor) {
               blended = make_panes(Material::Alpha::blend);
   for (const Scene* scene : {&temple, &masked, &blended}) {
     const glm::dmat4 pose = scene == &temple ? default_pose(*scene) : glm::dmat4(1.0);
-    renderer().load(*scene);
+    prepare(*scene);
     for (const auto& [name, camera] : cameras) {
       SCOPED_TRACE(name);
       // A ray beside an edge may differ. Observed: none does.

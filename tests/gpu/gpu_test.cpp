@@ -124,24 +124,42 @@ std::string test_name(std::string text) {
 
 namespace {
 
-std::unique_ptr<Renderer> shared_renderer;
+std::unique_ptr<Device> shared_device;
+std::unique_ptr<PreparedScene> shared_scene;
 
 /// GL goes before the process does.
-class RendererEnvironment : public ::testing::Environment {
+class DeviceEnvironment : public ::testing::Environment {
  public:
-  void TearDown() override { shared_renderer.reset(); }
+  void TearDown() override {
+    shared_scene.reset();
+    shared_device.reset();
+  }
 };
 
-[[maybe_unused]] const auto* const environment = ::testing::AddGlobalTestEnvironment(new RendererEnvironment);
+[[maybe_unused]] const auto* const environment = ::testing::AddGlobalTestEnvironment(new DeviceEnvironment);
 
 }  // namespace
 
-Renderer& GpuTest::renderer() {
-  if (shared_renderer == nullptr) {
-    shared_renderer = std::make_unique<Renderer>();
-    shared_renderer->open_gl();
+const Device& GpuTest::device() {
+  if (shared_device == nullptr) {
+    shared_device = std::make_unique<Device>();
+    shared_device->open_gl();
   }
-  return *shared_renderer;
+  return *shared_device;
+}
+
+void GpuTest::prepare(const Scene& scene) { shared_scene = std::make_unique<PreparedScene>(device(), scene); }
+
+PreparedScene& GpuTest::prepared() { return *shared_scene; }
+
+void GpuTest::follow(const Scene& scene) {
+  prepared().edit([&](SceneEdit& edit) {
+    for (const Instance& instance : scene.instances) edit.move(instance.key, instance.worldFromObject);
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+      edit.set_vertices(int(m), scene.meshes[m].positions, scene.meshes[m].normals);
+    }
+    edit.set_lights(scene.lights);
+  });
 }
 
 IntImage GpuTest::draw_ids(const Camera& camera, const glm::dmat4& pose, const std::string& technique) {
@@ -154,7 +172,7 @@ FloatImage GpuTest::draw_color(const Camera& camera, const glm::dmat4& pose, con
 
 std::map<Channel, Image> GpuTest::draw(const Camera& camera, const glm::dmat4& pose,
                                        std::initializer_list<Channel> channels, const RenderOptions& options) {
-  return renderer().render(camera, pose, std::vector<Channel>(channels), options);
+  return prepared().render(camera, pose, std::vector<Channel>(channels), options);
 }
 
 double share_of_differences(const IntImage& a, const IntImage& b) {

@@ -1,4 +1,4 @@
-// What all tests that draw share: one renderer for the process, every camera, every technique.
+// What all tests that draw share: one device for the process, every camera, every technique.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 
 #include "omma/camera/camera.h"
 #include "omma/gl/program.h"
+#include "omma/render/prepared_scene.h"
 #include "omma/scene/scene.h"
-#include "omma/technique/renderer.h"
 
 namespace omma {
 
@@ -55,7 +55,12 @@ class GpuTest : public ::testing::Test {
  protected:
   /// Opened by the first test that asks. Its programs serve all tests after it: compiling them takes longer than
   /// drawing.
-  static Renderer& renderer();
+  static const Device& device();
+  /// What the others draw from now on.
+  static void prepare(const Scene& scene);
+  static PreparedScene& prepared();
+  /// Moves what is prepared to where the instances, vertices and lights of `scene` are, which is otherwise the same.
+  static void follow(const Scene& scene);
   static IntImage draw_ids(const Camera& camera, const glm::dmat4& pose, const std::string& technique);
   static FloatImage draw_color(const Camera& camera, const glm::dmat4& pose, const RenderOptions& options);
   static std::map<Channel, Image> draw(const Camera& camera, const glm::dmat4& pose,

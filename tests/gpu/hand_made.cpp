@@ -101,11 +101,12 @@ Scene make_ball_and_pane() {
   return maker.finish();
 }
 
-void move_ball(Scene& scene, int frame, std::mt19937& random) {
+SceneChanges move_ball(Scene& scene, int frame, std::mt19937& random) {
   std::uniform_real_distribution<double> place(-3.0, 3.0);
   const double x = place(random), y = place(random), z = place(random) - 5.0;
   scene.instances[0].worldFromObject =
       glm::scale(translation({x, y, z}), glm::dvec3(frame % 2 == 0 ? 1.0 : -1.0, 1.0, 1.0));
+  return {.moved = true};
 }
 
 }  // namespace omma

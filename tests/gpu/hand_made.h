@@ -41,6 +41,6 @@ glm::dmat4 translation(const glm::dvec3& by);
 /// A red ball, instance 0, before a green pane.
 Scene make_ball_and_pane();
 /// Moves the ball somewhere else in every frame, mirrored every other time: windings turn, and the order of the draws.
-void move_ball(Scene& scene, int frame, std::mt19937& random);
+SceneChanges move_ball(Scene& scene, int frame, std::mt19937& random);
 
 }  // namespace omma

@@ -53,7 +53,7 @@ class NonlinearTest : public GpuTest {};
 
 TEST_F(NonlinearTest, DrawsWhatIsHardToBound) {
   const Scene scene = hard_scene();
-  renderer().load(scene);
+  prepare(scene);
   // Not along any axis.
   const glm::dmat4 pose = look_at_worldFromCamera(glm::dvec3(0.05, 0.02, 0.03), glm::dvec3(1.0, 0.3, -2.0));
   const Oracle oracle(scene, pose);
@@ -74,7 +74,7 @@ TEST_F(NonlinearTest, DrawsWhatIsHardToBound) {
 
 TEST_F(NonlinearTest, CountsTheFragmentsThatItTouchesAndKeeps) {
   const Scene scene = hard_scene();
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = look_at_worldFromCamera(glm::dvec3(0.05, 0.02, 0.03), glm::dvec3(1.0, 0.3, -2.0));
   const Oracle oracle(scene, pose);
   for (const char* text : {"equidistant:fov_deg=180", "equirectangular", "cube_3x2"}) {
@@ -88,7 +88,7 @@ TEST_F(NonlinearTest, CountsTheFragmentsThatItTouchesAndKeeps) {
     }
     const Channel wanted[] = {Channel::id};
     RenderStats stats;
-    renderer().render(camera, pose, wanted, {.technique = "nonlinear", .count_fragments = true}, &stats);
+    prepared().render(camera, pose, wanted, {.technique = "nonlinear", .count_fragments = true}, &stats);
     ASSERT_TRUE(stats.bound_fragments.has_value());
     std::cout << fmt::format("{}: {} touched, {} kept, {} met\n", text, stats.bound_fragments->touched,
                              stats.bound_fragments->kept, met);
@@ -100,7 +100,7 @@ TEST_F(NonlinearTest, CountsTheFragmentsThatItTouchesAndKeeps) {
 
 TEST_F(NonlinearTest, ShowsOverdrawBehindWhatIsKept) {
   const Scene scene = hard_scene();
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = look_at_worldFromCamera(glm::dvec3(0.05, 0.02, 0.03), glm::dvec3(1.0, 0.3, -2.0));
   const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{96, 96});
   const IntImage ids = draw_ids(camera, pose, "nonlinear");

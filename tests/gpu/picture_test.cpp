@@ -29,11 +29,11 @@ class PictureTest : public GpuTest, public ::testing::WithParamInterface<std::st
 TEST_P(PictureTest, TilesMakeTheSamePicture) {
   const Scene scene = load_scene("city:blocks=2");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = camera_for(GetParam(), {200, 150});
   const auto render = [&](int tile, RenderStats* stats) {
     const Channel wanted[] = {Channel::color, Channel::id, Channel::distance};
-    return renderer().render(camera, pose, wanted, {.technique = GetParam(), .samples = 4, .tile = tile}, stats);
+    return prepared().render(camera, pose, wanted, {.technique = GetParam(), .samples = 4, .tile = tile}, stats);
   };
   RenderStats one, many;
   const auto whole = render(0, &one), tiled = render(64, &many);
@@ -54,11 +54,11 @@ TEST_P(PictureTest, TilesMakeTheSamePicture) {
 TEST_P(PictureTest, MoreSamplesComeCloserToTheTruth) {
   const Scene scene = load_scene("temple");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = camera_for(GetParam(), {120, 90});
   const auto render = [&](int samples, RenderStats* stats = nullptr) {
     const Channel wanted[] = {Channel::color};
-    return std::get<FloatImage>(renderer()
+    return std::get<FloatImage>(prepared()
                                     .render(camera, pose, wanted, {.technique = GetParam(), .samples = samples}, stats)
                                     .at(Channel::color));
   };
@@ -79,7 +79,7 @@ TEST_P(PictureTest, MoreSamplesComeCloserToTheTruth) {
 TEST_P(PictureTest, FiltersDifferButLittle) {
   const Scene scene = load_scene("city:blocks=2");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = camera_for(GetParam(), {200, 150});
   const double decibels = psnr(draw_color(camera, pose, {.technique = GetParam(), .filter = Filter::anisotropic}),
                                draw_color(camera, pose, {.technique = GetParam(), .filter = Filter::trilinear}));
@@ -99,9 +99,9 @@ TEST_P(PictureTest, IsTheSameAMillionMetresAway) {
   const Camera camera = camera_for(GetParam(), {160, 120});
   const glm::dvec3 far_away(1e6, -3e5, 7e5);
   const Scene here = make(glm::dvec3(0.0)), there = make(far_away);
-  renderer().load(here);
+  prepare(here);
   const IntImage near_ids = draw_ids(camera, glm::dmat4(1.0), GetParam());
-  renderer().load(there);
+  prepare(there);
   const IntImage far_ids = draw_ids(camera, translation(far_away), GetParam());
   EXPECT_EQ(share_of_differences(near_ids, far_ids), 0.0);
   EXPECT_GT(std::count_if(near_ids.values.begin(), near_ids.values.end(), [](int id) { return id >= 0; }), 500);
@@ -126,11 +126,10 @@ Scene make_flying_ball() {
 
 TEST_P(PictureTest, MovedGeometryIsSeenWhereItWent) {
   Scene scene = make_flying_ball();
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = camera_for(GetParam(), {160, 120});
   for (const double time : {0.0, 0.5, 1.5}) {
-    set_time(scene, time);
-    renderer().update();
+    prepared().set_time(time);
     const IntImage ids = draw_ids(camera, glm::dmat4(1.0), GetParam());
     double sum_x = 0.0, count = 0.0;
     for (int y = 0; y < ids.size.height; ++y) {
@@ -150,7 +149,7 @@ TEST_P(PictureTest, ASkinnedFoxRunsAlikeEverywhere) {
   const std::filesystem::path file = std::filesystem::path(places::shared_data) / "fox.glb";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
   Scene scene = load_scene_file(file);
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = camera_for(GetParam(), {160, 120});
   const glm::dvec3 centre = scene.bounds().center();
   const double reach = glm::length(scene.bounds().extent());
@@ -158,11 +157,10 @@ TEST_P(PictureTest, ASkinnedFoxRunsAlikeEverywhere) {
   std::vector<IntImage> pictures;
   for (const double time : {0.0, 0.4}) {
     set_time(scene, time);
-    renderer().update();
+    prepared().set_time(time);
     pictures.push_back(draw_ids(camera, pose, GetParam()));
-    // Whoever loads the scene as it stands now must see what update made of the old one.
-    Renderer fresh;
-    fresh.load(scene);
+    // Whoever loads the scene as it stands now must see what following made of the old one.
+    const PreparedScene fresh(device(), scene);
     const Channel wanted[] = {Channel::id};
     const auto expected = fresh.render(camera, pose, wanted, {.technique = GetParam()});
     EXPECT_EQ(share_of_differences(pictures.back(), std::get<IntImage>(expected.at(Channel::id))), 0.0);
@@ -178,7 +176,7 @@ class FaceSizeTest : public GpuTest {};
 TEST_F(FaceSizeTest, LargerFacesComeCloserToTheTruth) {
   const Scene scene = load_scene("temple");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{200, 200});
   const FloatImage truth = draw_color(camera, pose, {.technique = "raycast", .samples = 16});
   double before = 0.0;

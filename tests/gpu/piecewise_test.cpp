@@ -71,7 +71,7 @@ TEST_F(PiecewiseTest, VariantsDrawTheSamePicture) {
   for (size_t column = 0; column < std::size(scenes); ++column) {
     const char* scene_name = scenes[column];
     const Scene scene = load_scene(scene_name);
-    renderer().load(scene);
+    prepare(scene);
     for (size_t row = 0; row < cameras.size(); ++row) {
       if (!is_proved_today(row, column, std::size(scenes))) continue;
       const auto& [name, camera] = cameras[row];
@@ -91,7 +91,7 @@ TEST_F(PiecewiseTest, VariantsDrawTheSamePicture) {
 TEST_F(PiecewiseTest, DrawsWhatRaysMeetThroughTheSamePieces) {
   const Scene scene = load_scene("facade:detail=0");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   for (const auto& [name, camera] : kinds_of_cameras()) {
     const Camera pieces(approximate(camera).pieces);
     const Verdict verdict =
@@ -107,7 +107,7 @@ TEST_F(PiecewiseTest, DrawsWhatRaysMeetThroughTheSamePieces) {
 TEST_F(PiecewiseTest, RaycastTracesPieces) {
   const Scene scene = load_scene("facade:detail=0");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   for (const auto& [name, camera] : kinds_of_cameras()) {
     const Camera pieces(approximate(camera).pieces);
     const double share = share_of_differences(ids(pieces, pose, variants[0]), ids(pieces, pose, "raycast"));
@@ -122,7 +122,7 @@ TEST_F(PiecewiseTest, RaycastTracesPieces) {
 TEST_F(PiecewiseTest, StaysWithinTheToleranceOfTheLens) {
   const Scene scene = load_scene("facade:detail=0");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   for (const char* text : {"cylinder:fov_deg=360", "equidistant:fov_deg=180", "stereographic:fov_deg=200", "panini"}) {
     const Camera camera = make_camera(text, ImageSize{160, 120});
     for (const double tolerance : {0.1, 0.5}) {
@@ -152,7 +152,7 @@ Scene make_veil() {
 
 TEST_F(PiecewiseTest, CoversEverySampleOnce) {
   const Scene scene = make_veil();
-  renderer().load(scene);
+  prepare(scene);
   std::mt19937 random(5);
   const int poses = full_proof() ? 1000 : 10;
   for (const auto& [name, camera] : kinds_of_cameras()) {
@@ -202,7 +202,7 @@ TEST_F(PiecewiseTest, TrianglesThatHoldThePoleTheAntipodeOrTheWholeView) {
     mesh.triangles = {{0, 1, 2}};
     maker.place(maker.add(mesh));
     const Scene scene = maker.finish();
-    renderer().load(scene);
+    prepare(scene);
     const glm::dmat4 pose(1.0);
     for (size_t row = 0; row < cameras.size(); ++row) {
       if (!is_proved_today(row, column, std::size(triangles))) continue;
@@ -222,7 +222,7 @@ TEST_F(PiecewiseTest, ListsThatMustGrowAThousandfoldAreCompleteAtOnce) {
   SceneMaker maker;
   maker.place(maker.add(make_pane(-2.0f, 50.0f, maker.add(unlit({1, 0, 0, 1})))));
   const Scene scene = maker.finish();
-  renderer().load(scene);
+  prepare(scene);
   // More pieces than the tessellation unit has points, more than a list may grow by in a round.
   const PieceOptions many{.count = 9000};
   const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{320, 320});
@@ -240,12 +240,12 @@ TEST_F(PiecewiseTest, ListsThatMustGrowAThousandfoldAreCompleteAtOnce) {
 
 TEST_F(PiecewiseTest, FollowsASceneThatChangesEveryFrame) {
   Scene scene = make_ball_and_pane();
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = make_camera("cylinder:fov_deg=360", ImageSize{200, 120});
   std::mt19937 random(3);
   for (int frame = 0; frame < 6; ++frame) {
     move_ball(scene, frame, random);
-    renderer().update();
+    follow(scene);
     const IntImage truth = ids(camera, glm::dmat4(1.0), "raycast");
     for (const char* variant : variants) {
       EXPECT_LT(share_of_differences(ids(camera, glm::dmat4(1.0), variant), truth), 0.01) << variant << ", " << frame;
@@ -256,7 +256,7 @@ TEST_F(PiecewiseTest, FollowsASceneThatChangesEveryFrame) {
 TEST_F(PiecewiseTest, ANewDeformationEveryFrame) {
   const Scene scene = load_scene("facade:detail=0");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   for (int frame = 0; frame < 5; ++frame) {
     const Camera camera = deformed_camera({16, 16}, {160, 120}, 0.02 * frame);
     for (const char* variant : variants) {
@@ -269,7 +269,7 @@ TEST_F(PiecewiseTest, ANewDeformationEveryFrame) {
 TEST_F(PiecewiseTest, TilesFitTogether) {
   const Scene scene = load_scene("facade:detail=0");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   for (const auto& [name, camera] : kinds_of_cameras()) {
     const auto whole = draw(camera, pose, {Channel::id}, {.technique = variants[0]});
     const auto tiled = draw(camera, pose, {Channel::id}, {.technique = variants[0], .tile = 37});
@@ -283,10 +283,10 @@ TEST_F(PiecewiseTest, TilesFitTogether) {
 
 TEST_F(PiecewiseTest, ReportsItsPieces) {
   const Scene scene = load_scene("facade:detail=0");
-  renderer().load(scene);
+  prepare(scene);
   RenderStats stats;
   const Channel wanted[] = {Channel::id};
-  renderer().render(make_camera("cylinder:fov_deg=360", ImageSize{1600, 120}), default_pose(scene), wanted,
+  prepared().render(make_camera("cylinder:fov_deg=360", ImageSize{1600, 120}), default_pose(scene), wanted,
                     {.technique = variants[0], .pieces = {.count = 160}}, &stats);
   EXPECT_EQ(stats.pieces, 160u);
   EXPECT_GT(stats.piece_error_px, 0.0);

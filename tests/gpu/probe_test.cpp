@@ -8,7 +8,7 @@
 #include "omma/base/error.h"
 #include "omma/math/pose.h"
 #include "omma/oracle/embree_scene.h"
-#include "omma/technique/probe/probe.h"
+#include "omma/probe/probe.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
 
@@ -21,8 +21,8 @@ class ProbeTest : public GpuTest, public testing::WithParamInterface<std::string
  protected:
   static ProbeResult probe(const Scene& scene, const ProbePoint& point, ProbeOptions options = {}) {
     options.render.technique = GetParam();
-    renderer().load(scene);
-    Prober prober(renderer(), options);
+    prepare(scene);
+    Prober prober(prepared(), options);
     ProbeResult result;
     prober.look_cosine_weighted(point, result);
     prober.look_unweighted(point, result);
@@ -179,14 +179,14 @@ TEST_P(ProbeTest, AgreesWithRays) {
   const std::vector<glm::vec3> rays = cosine_rays(side);
   for (const char* name : {"temple", "city"}) {
     const Scene scene = load_scene(name);
-    renderer().load(scene);
+    prepare(scene);
     const std::vector<ProbePoint> points =
         points_in_view(draw(make_camera("equidistant:fov_deg=180", ImageSize{24, 24}), default_pose(scene),
                             {Channel::position, Channel::normal}, {.technique = "raycast"}));
     ProbeOptions options;
     options.render.technique = GetParam();
     options.max_distance = reach;
-    Prober prober(renderer(), options);
+    Prober prober(prepared(), options);
     EmbreeScene trees(scene);
     double most = 0.0, sum = 0.0, covered_sum = 0.0;
     for (const ProbePoint& point : points) {

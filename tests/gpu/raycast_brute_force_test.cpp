@@ -104,7 +104,7 @@ TEST_P(RaycastBruteForceTest, EveryChannelIsRightThroughEveryCamera) {
   const Scene scene = GetParam().make();
   const glm::dmat4 pose = default_pose(scene);
   const Oracle oracle(scene, pose);
-  renderer().load(scene);
+  prepare(scene);
   Errors errors;
   Verdict total;
   for (const auto& [name, camera] : all_cameras(GetParam().side)) {

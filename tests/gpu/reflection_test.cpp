@@ -71,7 +71,7 @@ TEST_P(ReflectionTest, OfAMirrorIsWhatRaysFromItsMiddleSee) {
   const glm::dvec3 middle(0.1, -0.2, 0.3);
   const Scene scene = make_room(middle, 0.0f), surroundings = make_room(middle, 0.0f, false);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{side, side});
-  renderer().load(scene);
+  prepare(scene);
   const auto pictures =
       draw(camera, pose, {Channel::color, Channel::position, Channel::normal, Channel::object}, reflecting(0));
   const auto& color = std::get<FloatImage>(pictures.at(Channel::color));
@@ -112,7 +112,7 @@ TEST_P(ReflectionTest, OfARoughSurfaceIsBlurredWithoutASeam) {
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{wide, wide});
   const auto steepest = [&](float roughness) {
     const Scene scene = make_room({0, 0, 0}, roughness);
-    renderer().load(scene);
+    prepare(scene);
     const auto pictures = draw(camera, pose, {Channel::color, Channel::object, Channel::normal}, reflecting(0));
     const auto& color = std::get<FloatImage>(pictures.at(Channel::color));
     const auto& object = std::get<IntImage>(pictures.at(Channel::object));
@@ -136,14 +136,14 @@ TEST_P(ReflectionTest, OfARoughSurfaceIsBlurredWithoutASeam) {
 TEST_P(ReflectionTest, FollowsWhatMovesAndLeavesOthersAlone) {
   Scene scene = make_room({0, 0, 0}, 0.1f);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{48, 48});
-  renderer().load(scene);
+  prepare(scene);
   RenderOptions options = reflecting(0);
   const FloatImage before = draw_color(camera, pose, options);
   EXPECT_EQ(largest_difference(before, draw_color(camera, pose, options)), 0.0);
   scene.instances.back().worldFromObject = translation({0.0, 0.4, 0.0});
-  renderer().update();
+  follow(scene);
   const FloatImage after = draw_color(camera, pose, options);
-  renderer().load(scene);
+  prepare(scene);
   EXPECT_EQ(largest_difference(after, draw_color(camera, pose, options)), 0.0);
   EXPECT_GT(largest_difference(before, after), 0.1);
   // Walls are unlit and reflect nothing; without the option the ball is as it was.
@@ -155,7 +155,7 @@ TEST_P(ReflectionTest, FollowsWhatMovesAndLeavesOthersAlone) {
 
 TEST_P(ReflectionTest, IsTheSameInExactTechniquesAndWithShadows) {
   const Scene scene = make_room({0, 0, 0}, 0.2f);
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{64, 64});
   RenderOptions options = reflecting(0);
   options.shadows = Shadows::cube;
@@ -169,7 +169,7 @@ TEST_P(ReflectionTest, IsTheSameInExactTechniquesAndWithShadows) {
 
 TEST_P(ReflectionTest, RefusesObjectsThatAreNotThere) {
   const Scene scene = make_room({0, 0, 0}, 0.2f);
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = make_camera("perspective", ImageSize{16, 16});
   EXPECT_THROW(draw_color(camera, pose, reflecting(99)), CommandError);
   RenderOptions options = reflecting(0);

@@ -17,7 +17,7 @@ class ReflectionWithoutGlTest : public GpuTest {
     double plain = 1000.0, reflecting = 1000.0, change = 0.0;
   };
   static Likeness compare(const Scene& scene, const glm::dmat4& pose, int object, Shadows shadows = Shadows::off) {
-    renderer().load(scene);
+    prepare(scene);
     Likeness least;
     for (const char* lens : cameras) {
       const Camera camera = as_ray_map(make_camera(lens, ImageSize{160, 120}));

@@ -25,7 +25,7 @@ bool is_exact(const std::string& technique) {
 class SamplingTest : public GpuTest, public ::testing::WithParamInterface<std::string> {
  protected:
   static int side() { return full_proof() ? 1024 : 256; }
-  SamplingTest() : scene_(load_scene("city")), pose_(default_pose(scene_)) { renderer().load(scene_); }
+  SamplingTest() : scene_(load_scene("city")), pose_(default_pose(scene_)) { prepare(scene_); }
   FloatImage draw_samples(const Camera& camera, const std::string& technique, int samples) {
     return draw_color(camera, pose_, {.technique = technique, .samples = samples});
   }

@@ -78,7 +78,7 @@ class SeveralSamplesTest : public GpuTest {
   static FloatImage look(const Camera& camera, const glm::dmat4& pose, const RenderOptions& options,
                          RenderStats* stats = nullptr) {
     const Channel wanted[] = {Channel::color};
-    return std::get<FloatImage>(renderer().render(camera, pose, wanted, options, stats).at(Channel::color));
+    return std::get<FloatImage>(prepared().render(camera, pose, wanted, options, stats).at(Channel::color));
   }
 };
 
@@ -92,7 +92,7 @@ TEST_F(SeveralSamplesTest, WeighFlatColoursAsSoManyPicturesDo) {
     return count == 0 || is_proved_today(view, count, std::size(counts));
   };
   std::vector<FloatImage> truths;
-  renderer().load(slow);
+  prepare(slow);
   for (size_t view = 0; view < views.size(); ++view) {
     const auto& [name, camera] = views[view];
     for (size_t count = 0; count < std::size(counts); ++count) {
@@ -104,7 +104,7 @@ TEST_F(SeveralSamplesTest, WeighFlatColoursAsSoManyPicturesDo) {
       EXPECT_EQ(stats.passes, samples);
     }
   }
-  renderer().load(scene);
+  prepare(scene);
   double worst = 0.0;
   for (const std::string technique : techniques_with_shifts) {
     auto truth = truths.begin();
@@ -156,13 +156,13 @@ TEST_F(SeveralSamplesTest, ShadeRealScenesMuchAsSoManyPicturesDo) {
     const std::vector<NamedCamera> views = cameras({160, 120});
     const int counts[] = {1, 3, 4, 16, 20};
     std::vector<FloatImage> truths;
-    renderer().load(slow);
+    prepare(slow);
     for (const auto& [name, camera] : views) {
       for (const int samples : counts) {
         truths.push_back(look(camera, pose, {.technique = "visibility:resolve", .samples = samples}));
       }
     }
-    renderer().load(scene);
+    prepare(scene);
     auto truth = truths.begin();
     for (const auto& [name, camera] : views) {
       for (const int samples : counts) {
@@ -183,7 +183,7 @@ TEST_F(SeveralSamplesTest, ShadeATriangleOfAPixelOnce) {
   SceneMaker maker;
   maker.place(maker.add(make_pane(-2.0f, 1.0f, maker.add(unlit({1, 0, 0, 1})))));
   const Scene scene = maker.finish();
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = make_camera("equidistant:fov_deg=120", ImageSize{64, 64});
   for (const std::string technique : techniques_with_shifts) {
     RenderStats stats;
@@ -216,9 +216,9 @@ TEST_F(SeveralSamplesTest, GoWithShadowsEffectsAndReflections) {
   for (RenderOptions& options : pictures) {
     options.technique = "visibility:resolve";
     options.samples = 7;
-    renderer().load(slow);
+    prepare(slow);
     const FloatImage expected = look(camera, glm::dmat4(1.0), options);
-    renderer().load(scene);
+    prepare(scene);
     const double decibels = psnr(look(camera, glm::dmat4(1.0), options), expected);
     std::cout << fmt::format("{:.1f} dB\n", decibels);
     EXPECT_GT(decibels, 30.0);  // observed: 34.2, 32.7 (lines thinner than a pixel) and 56.4
@@ -228,7 +228,7 @@ TEST_F(SeveralSamplesTest, GoWithShadowsEffectsAndReflections) {
 TEST_F(SeveralSamplesTest, FollowOneAnotherInAnySizeAndNumber) {
   // What a picture leaves behind is nothing to the next.
   const Scene scene = confetti();
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = pose_at({0.3, -0.2, 0.1}, 0.4, 0.2);
   const auto look_at = [&](ImageSize size, int samples) {
     return look(make_camera("equidistant:fov_deg=180", size), pose,
@@ -246,7 +246,8 @@ TEST(SamplesAtOnce, AreFewerInLargeTiles) {
   const Scene scene = SceneMaker().finish();
   const GpuScene gpu_scene(scene, context);
   ProgramCache programs;
-  DrawTools tools{context, gpu_scene, programs};
+  const LazySceneIndex index(scene);
+  DrawTools tools{context, gpu_scene, index, programs};
   const Resolver resolver(tools);
   EXPECT_EQ(resolver.samples_at_once({1, 1}), 16u);
   EXPECT_EQ(resolver.samples_at_once({1600, 1200}), 16u);

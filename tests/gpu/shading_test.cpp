@@ -34,7 +34,7 @@ class ShadingTest : public GpuTest, public ::testing::WithParamInterface<std::st
   }
 
   static std::map<Channel, Image> look(const Scene& scene, const Camera& camera, int samples = 4) {
-    renderer().load(scene);
+    prepare(scene);
     return draw(
         camera, glm::dmat4(1.0), {Channel::color, Channel::id, Channel::object, Channel::normal},
         {.technique = GetParam(), .samples = samples, .pieces = {.tolerance_px = 0.02}, .background = backdrop});

@@ -76,7 +76,7 @@ class ShadowTest : public GpuTest, public ::testing::WithParamInterface<const ch
   static ShadowVerdict judge(const Scene& scene, const glm::dmat4& pose, Shadows kind, int size = map_size) {
     const Camera camera = make_camera("equidistant:fov_deg=200", ImageSize{side, side});
     RenderOptions options{.technique = GetParam(), .samples = 1, .shadow_size = size};
-    renderer().load(scene);
+    prepare(scene);
     const auto plain = draw(camera, pose, {Channel::color, Channel::position, Channel::normal}, options);
     options.shadows = kind;
     const FloatImage shadowed = draw_color(camera, pose, options);
@@ -225,7 +225,7 @@ TEST_P(ShadowTest, TouchTheirCasters) {
   maker.add(lamp);
   const Scene scene = maker.finish();
   const Camera camera = make_camera("perspective:fov_deg=60", ImageSize{200, 200});
-  renderer().load(scene);
+  prepare(scene);
   // Straight down on the wall's upper edge; a pixel is 8 mm of the floor, a texel 5 mm.
   const glm::dmat4 pose = look_at_worldFromCamera({0.0, 1.4, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
   RenderOptions options{.technique = GetParam(), .samples = 1};
@@ -247,13 +247,13 @@ TEST_P(ShadowTest, FollowWhatMoves) {
   const Camera camera = make_camera("perspective:fov_deg=90", ImageSize{64, 64});
   const glm::dmat4 pose(1.0);
   const RenderOptions options{.technique = GetParam(), .samples = 1, .shadows = Shadows::cube, .shadow_size = 128};
-  renderer().load(scene);
+  prepare(scene);
   const FloatImage before = draw_color(camera, pose, options);
   EXPECT_EQ(largest_difference(before, draw_color(camera, pose, options)), 0.0);
   scene.instances.back().worldFromObject = translation({-0.5, 0.2, -1.5});
-  renderer().update();
+  follow(scene);
   const FloatImage after = draw_color(camera, pose, options);
-  renderer().load(scene);
+  prepare(scene);
   EXPECT_GT(largest_difference(before, after), 0.1);
   EXPECT_EQ(largest_difference(after, draw_color(camera, pose, options)), 0.0);
 }
@@ -264,7 +264,7 @@ TEST_F(ShadowTechniquesTest, AreTheSameInEveryTechniqueThatIsExactThere) {
   const Scene scene = make_seam();
   const Camera camera = make_camera("perspective:fov_deg=70", ImageSize{96, 96});
   const glm::dmat4 pose = look_at_worldFromCamera({0.3, 0.9, 0.0}, {0.3, 0.0, -3.0});
-  renderer().load(scene);
+  prepare(scene);
   RenderOptions options{.technique = "raycast", .samples = 1, .shadows = Shadows::cube, .shadow_size = 256};
   const FloatImage truth = draw_color(camera, pose, options);
   size_t compared = 0;
@@ -280,7 +280,7 @@ TEST_F(ShadowTechniquesTest, AreTheSameInEveryTechniqueThatIsExactThere) {
 
 TEST_P(ShadowTest, RefuseSizesThatMakeNoMap) {
   const Scene scene = make_seam();
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = make_camera("perspective", ImageSize{16, 16});
   EXPECT_THROW(
       draw_color(camera, glm::dmat4(1.0), {.technique = GetParam(), .shadows = Shadows::cube, .shadow_size = 8}),

@@ -17,10 +17,11 @@ class SimdTargetsTest : public ::testing::Test {
 
 TEST_F(SimdTargetsTest, DrawTheSamePicture) {
   const Scene scene = load_scene("room");
+  const LazySceneIndex index(scene);
   const glm::dmat4 pose = look_at_worldFromCamera(scene.default_from, scene.default_to);
   constexpr Channel color[] = {Channel::color};
   const auto draw = [&](const Camera& camera) {
-    const auto pictures = SoftwareRenderer(scene).render(camera, pose, color,
+    const auto pictures = SoftwareRenderer(index).render(camera, pose, color,
                                                          {.samples = 2, .shadows = Shadows::cube, .shadow_size = 64});
     return std::get<FloatImage>(pictures.at(Channel::color));
   };

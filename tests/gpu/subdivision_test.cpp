@@ -63,7 +63,7 @@ TEST_P(SubdivisionTest, HugeTrianglesLieWithinTheTolerance) {
   std::mt19937 random(5);
   for (const glm::vec3& half : {glm::vec3(1.0f), glm::vec3(40.0f, 0.5f, 7.0f)}) {
     const Scene scene = make_box(half);
-    renderer().load(scene);
+    prepare(scene);
     for (const char* text : cameras) {
       const Camera camera = make_camera(text);
       for (const double tolerance : {0.25, 1.0}) {
@@ -81,7 +81,7 @@ TEST_P(SubdivisionTest, HugeTrianglesLieWithinTheTolerance) {
 TEST_P(SubdivisionTest, ASmallerToleranceIsNearerToRaycast) {
   const Scene scene = load_scene("temple");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = make_camera("equidistant:fov_deg=180,width=200,height=150");
   const IntImage truth = draw_ids(camera, pose, "raycast");
   const double fine = share_of_differences(ids(camera, pose, 0.02), truth),
@@ -93,12 +93,12 @@ TEST_P(SubdivisionTest, ASmallerToleranceIsNearerToRaycast) {
 
 TEST_P(SubdivisionTest, FollowsASceneThatChangesEveryFrame) {
   Scene scene = make_ball_and_pane();
-  renderer().load(scene);
+  prepare(scene);
   const Camera camera = make_camera("cylinder:fov_deg=360", ImageSize{200, 120});
   std::mt19937 random(3);
   for (int frame = 0; frame < 6; ++frame) {
     move_ball(scene, frame, random);
-    renderer().update();
+    follow(scene);
     const IntImage picture = ids(camera, glm::dmat4(1.0), 0.05);
     EXPECT_LT(share_of_differences(picture, draw_ids(camera, glm::dmat4(1.0), "raycast")), 5e-3) << frame;
   }
@@ -117,7 +117,7 @@ TEST_P(SubdivisionTest, BlendedTrianglesKeepTheirOrderInParts) {
   maker.place(maker.add(make_pane(-2.0f, 3.0f, glass({0, 1, 0, 0.5f}))));
   maker.place(maker.add(make_pane(-1.0f, 1.0f, glass({0, 0, 1, 0.5f}))));
   const Scene scene = maker.finish();
-  renderer().load(scene);
+  prepare(scene);
   for (size_t i = 0; i < std::size(cameras); ++i) {
     const char* text = cameras[i];
     if (!is_proved_today(size_t(technique() == std::string("subdivision:tessellator")), i, std::size(cameras)))
@@ -136,26 +136,24 @@ TEST_P(SubdivisionTest, BuffersGrowWithWhatIsSplit) {
   const Camera camera = make_camera("equirectangular:width=400,height=200");
   const glm::dmat4 pose = default_pose(scene);
   const Channel wanted[] = {Channel::id};
-  const auto picture = [&](Renderer& renderer, double tolerance_px, RenderStats* stats = nullptr) {
+  const auto picture = [&](const PreparedScene& of, double tolerance_px, RenderStats* stats = nullptr) {
     const RenderOptions options{.technique = technique(), .pieces = {.tolerance_px = tolerance_px}};
-    return std::get<IntImage>(renderer.render(camera, pose, wanted, options, stats).at(Channel::id));
+    return std::get<IntImage>(of.render(camera, pose, wanted, options, stats).at(Channel::id));
   };
-  Renderer fresh;
-  fresh.load(scene);
+  const PreparedScene fresh(device(), scene);
   RenderStats small, large;
   picture(fresh, 100.0, &small);
   const IntImage grown = picture(fresh, 0.02, &large);
   // The first lists hold 4096 parts of 96 bytes.
   EXPECT_GT(large.buffer_bytes, small.buffer_bytes + 4096 * 96);
   EXPECT_EQ(share_of_differences(grown, picture(fresh, 0.02)), 0.0);
-  Renderer other;
-  other.load(scene);
+  const PreparedScene other(device(), scene);
   EXPECT_EQ(share_of_differences(grown, picture(other, 0.02)), 0.0);
 }
 
 TEST_P(SubdivisionTest, TilesAreClosedToo) {
   const Scene scene = make_box(glm::vec3(3.0f, 1.0f, 2.0f));
-  renderer().load(scene);
+  prepare(scene);
   std::mt19937 random(11);
   for (const char* text : cameras) {
     const Camera camera = make_camera(text);
@@ -168,7 +166,7 @@ TEST_P(SubdivisionTest, TilesAreClosedToo) {
 
 TEST_P(SubdivisionTest, RefusesWhatItCannotDraw) {
   const Scene scene = load_scene("facade:detail=0");
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = default_pose(scene);
   for (const char* text : {"dual_fisheye:width=96,height=48,circle_fov_deg=195", "barrel:width=80,height=32"}) {
     try {

@@ -50,7 +50,7 @@ TEST_P(TechniquesTest, DrawsRealScenesAsRaycastDoes) {
     const size_t column = technique_number * std::size(scenes) + i;
     const Scene scene = load_scene(scene_name);
     const glm::dmat4 pose = default_pose(scene);
-    renderer().load(scene);
+    prepare(scene);
     for (size_t row = 0; row < cameras.size(); ++row) {
       const auto& [name, camera] = cameras[row];
       if (!can_draw(GetParam(), camera) || !is_proved_today(row, column, techniques.size() * std::size(scenes))) {
@@ -102,7 +102,7 @@ class ImageBasedTest : public GpuTest {};
 TEST_F(ImageBasedTest, VariantsDrawTheSamePicture) {
   const Scene scene = load_scene("city:blocks=2");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   const auto& variants = info_of("image-based").variants;
   ASSERT_GE(variants.size(), 2u);
   const std::vector<NamedCamera> cameras = all_cameras(256);
@@ -129,7 +129,7 @@ TEST_F(ImageBasedTest, VariantsDrawTheSamePicture) {
 TEST_F(ImageBasedTest, ARayMapLooksLikeTheLensItWasSampledFrom) {
   const Scene scene = load_scene("city:blocks=2");
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   for (size_t row = 0; row < lens_models().size(); ++row) {
     if (!is_proved_today(row)) continue;
     const LensModel& model = lens_models()[row];
@@ -154,7 +154,7 @@ class RegistryTest : public GpuTest {};
 
 TEST_F(RegistryTest, TechniquesRefuseCamerasTheyCannotDraw) {
   const Scene scene = load_scene("facade:detail=0");
-  renderer().load(scene);
+  prepare(scene);
   const Camera map = wavy_ray_map(32), fisheye = make_camera("equidistant", ImageSize{32, 32});
   const glm::dmat4 pose = default_pose(scene);
   EXPECT_THROW(draw_ids(map, pose, "vertex"), CommandError);
@@ -167,12 +167,12 @@ TEST_F(RegistryTest, TechniquesRefuseCamerasTheyCannotDraw) {
 
 TEST_F(RegistryTest, AutoSaysWhatItTook) {
   const Scene scene = load_scene("facade:detail=0");
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = default_pose(scene);
   const Channel wanted[] = {Channel::id};
   for (const auto& [name, camera] : all_cameras(48)) {
     RenderStats stats;
-    const auto pictures = renderer().render(camera, pose, wanted, {}, &stats);
+    const auto pictures = prepared().render(camera, pose, wanted, {}, &stats);
     EXPECT_EQ(stats.technique, "visibility:cpu") << name;
     EXPECT_EQ(
         share_of_differences(std::get<IntImage>(pictures.at(Channel::id)), draw_ids(camera, pose, stats.technique)),
@@ -203,7 +203,7 @@ TEST_F(RegistryTest, WhatAutoTakesDrawsWhatRaycastDraws) {
   const int ball = maker.place(maker.add(make_ball(0.7f, maker.add(Material{}))), translation({0.5, -1.0, -2.0}));
   maker.place(maker.add(make_quad({-9, -2, 9}, {9, -2, 9}, {9, -2, -9}, {-9, -2, -9}, maker.add(floor))));
   const Scene scene = maker.finish();
-  renderer().load(scene);
+  prepare(scene);
   const glm::dmat4 pose = translation({0.1, 0.2, 0.3});
   std::vector<NamedCamera> cameras{
       {"pieces", Camera(approximate(make_camera("cylinder:fov_deg=300", ImageSize{160, 120})).pieces)}};

@@ -129,7 +129,7 @@ class WithoutGlTest : public GpuTest, public ::testing::WithParamInterface<Case>
 TEST_P(WithoutGlTest, ChannelsAreThoseThatOpenGlWrites) {
   const Scene scene = GetParam().second();
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   size_t seen = 0, ids = 0, labels = 0, nothing = 0;
   double distance = 0.0, z = 0.0, position = 0.0, normal = 0.0, uv = 0.0;
   // As maps all cameras have the same rays here and there: the formulae of a driver's atan are off by more than all
@@ -137,8 +137,8 @@ TEST_P(WithoutGlTest, ChannelsAreThoseThatOpenGlWrites) {
   for (const auto& [name, lens] : all_cameras(GetParam().first == std::string("everything") ? 160 : 64)) {
     const Camera camera = as_ray_map(lens);
     RenderStats cpu_stats, gl_stats;
-    const auto cpu = renderer().render(camera, pose, all_but_color, {.technique = "visibility:cpu"}, &cpu_stats);
-    const auto gl = renderer().render(camera, pose, all_but_color, {.technique = "visibility:resolve"}, &gl_stats);
+    const auto cpu = prepared().render(camera, pose, all_but_color, {.technique = "visibility:cpu"}, &cpu_stats);
+    const auto gl = prepared().render(camera, pose, all_but_color, {.technique = "visibility:resolve"}, &gl_stats);
     EXPECT_TRUE(cpu_stats.renderer.starts_with("the processor")) << cpu_stats.renderer;
     EXPECT_FALSE(gl_stats.renderer.starts_with("the processor")) << gl_stats.renderer;
     const auto whole = [](const auto& pictures, Channel channel, int x, int y) {
@@ -200,7 +200,7 @@ TEST_P(WithoutGlTest, ChannelsAreThoseThatOpenGlWrites) {
 TEST_P(WithoutGlTest, ColorIsThatOfOpenGl) {
   const Scene scene = GetParam().second();
   const glm::dmat4 pose = default_pose(scene);
-  renderer().load(scene);
+  prepare(scene);
   std::map<Filter, double> least{{Filter::trilinear, 1000.0}, {Filter::anisotropic, 1000.0}};
   for (const auto& [name, lens] : all_cameras(128)) {
     // Where faces meet, OpenGL interpolates between rays of a map that point apart.

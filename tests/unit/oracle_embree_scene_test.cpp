@@ -177,8 +177,7 @@ TEST(EmbreeSceneTest, UpdateFollowsDeformedMeshes) {
   scene.animations.push_back(animation);
   finish_scene(scene);
   EmbreeScene trees(scene);
-  set_time(scene, 0.5);
-  trees.update();
+  trees.update(set_time(scene, 0.5));
   trees.set_view(glm::dmat4(1.0));
   const auto hits = trace(trees, {{0.1f, 0, -1}}, 1);
   EXPECT_NEAR(hits[0].distance, 3.5f, 1e-5f);

@@ -38,7 +38,8 @@ TEST(SoftwareRendererTest, AgreesWithBruteForce) {
     const glm::dmat4 pose =
         look_at_worldFromCamera(origin + glm::dvec3(0.3, 0.4, 0.2), origin + glm::dvec3(0.2, 0, -4));
     const Oracle oracle(scene, pose);
-    SoftwareRenderer renderer(scene);
+    LazySceneIndex index(scene);
+    SoftwareRenderer renderer(index);
     size_t compared = 0, seen = 0;
     double distance = 0.0, normal = 0.0, uv = 0.0, position = 0.0;
     for (const char* text : {"equidistant:fov_deg=300", "equirectangular", "perspective:fov_deg=100"}) {
@@ -111,7 +112,8 @@ TEST(SoftwareRendererTest, OneFindingGivesColorAndTheOthersWhatTwoGive) {
   all.push_back(Channel::color);
   const Scene solid = make_balls(glm::dvec3(0.0)), blended = make_ball_and_pane();
   for (const Scene* scene : {&solid, &blended}) {
-    SoftwareRenderer renderer(*scene);
+    LazySceneIndex index(*scene);
+    SoftwareRenderer renderer(index);
     const auto together = renderer.render(camera, glm::dmat4(1.0), all, {.samples = 1});
     auto apart = renderer.render(camera, glm::dmat4(1.0), all_but_color);
     apart.merge(renderer.render(camera, glm::dmat4(1.0), color, {.samples = 1}));
@@ -128,14 +130,17 @@ TEST(SoftwareRendererTest, OneFindingGivesColorAndTheOthersWhatTwoGive) {
 
 TEST(SoftwareRendererTest, FollowsWhatMoves) {
   Scene scene = make_ball_and_pane();
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{64, 64});
   constexpr Channel wanted[] = {Channel::distance, Channel::object};
   std::mt19937 random(3);
   for (int frame = 0; frame < 6; ++frame) {
-    move_ball(scene, frame, random);
-    renderer.update();
-    SoftwareRenderer anew(scene);
+    const SceneChanges changes = move_ball(scene, frame, random);
+    index.update(changes);
+    renderer.update(changes);
+    const LazySceneIndex index_anew(scene);
+    const SoftwareRenderer anew(index_anew);
     const auto followed = renderer.render(camera, glm::dmat4(1.0), wanted);
     const auto expected = anew.render(camera, glm::dmat4(1.0), wanted);
     EXPECT_EQ(std::get<FloatImage>(followed.at(Channel::distance)).values,
@@ -147,13 +152,15 @@ TEST(SoftwareRendererTest, FollowsWhatMoves) {
 
 TEST(SoftwareRendererTest, RefusesWhatItCannotDraw) {
   const Scene scene = make_ball_and_pane();
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const Camera camera = make_camera("equidistant", ImageSize{8, 8});
   constexpr Channel color[] = {Channel::id, Channel::color}, id[] = {Channel::id};
   EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), color, {.samples = 0}), CommandError);
   EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), {}), CommandError);
   const Scene empty;
-  SoftwareRenderer nothing(empty);
+  const LazySceneIndex no_index(empty);
+  const SoftwareRenderer nothing(no_index);
   const auto pictures = nothing.render(camera, glm::dmat4(1.0), id);
   for (const int32_t value : std::get<IntImage>(pictures.at(Channel::id)).values) EXPECT_EQ(value, -1);
 }

@@ -21,12 +21,13 @@ namespace {
 
 constexpr Channel color[] = {Channel::color};
 
-FloatImage draw(SoftwareRenderer& renderer, const Camera& camera, const glm::dmat4& pose,
+FloatImage draw(const SoftwareRenderer& renderer, const Camera& camera, const glm::dmat4& pose,
                 const SoftwareOptions& options) {
   return std::get<FloatImage>(renderer.render(camera, pose, color, options).at(Channel::color));
 }
 FloatImage draw(const Scene& scene, const Camera& camera, const SoftwareOptions& options) {
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   return draw(renderer, camera, look_at_worldFromCamera(scene.default_from, scene.default_to), options);
 }
 
@@ -102,7 +103,8 @@ TEST(SoftwareColorTest, ATriangleOfAPixelIsShadedOnce) {
   SceneMaker maker;
   maker.place(maker.add(make_pane(-2.0f, 1.0f, maker.add(unlit({1, 0, 0, 1})))));
   const Scene scene = maker.finish();
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const Camera camera = make_camera("equidistant:fov_deg=120", ImageSize{64, 64});
   SoftwareStats stats;
   const auto pictures =
@@ -162,13 +164,16 @@ TEST(SoftwareColorTest, WhereNothingIsThereIsTheBackground) {
 
 TEST(SoftwareColorTest, FollowsWhatMoves) {
   Scene scene = make_ball_and_pane();
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{48, 48});
   std::mt19937 random(3);
   for (int frame = 0; frame < 4; ++frame) {
-    move_ball(scene, frame, random);
-    renderer.update();
-    SoftwareRenderer anew(scene);
+    const SceneChanges changes = move_ball(scene, frame, random);
+    index.update(changes);
+    renderer.update(changes);
+    const LazySceneIndex index_anew(scene);
+    const SoftwareRenderer anew(index_anew);
     EXPECT_EQ(draw(renderer, camera, glm::dmat4(1.0), {}).values, draw(anew, camera, glm::dmat4(1.0), {}).values);
   }
 }

@@ -19,7 +19,7 @@ Scene make_ball_scene() {
   return maker.finish();
 }
 
-FloatImage draw(SoftwareRenderer& renderer, std::vector<Effect> effects) {
+FloatImage draw(const SoftwareRenderer& renderer, std::vector<Effect> effects) {
   const Camera camera = make_camera("equidistant:fov_deg=60", ImageSize{64, 64});
   const SoftwareOptions options{.samples = 1, .effects = std::move(effects)};
   return std::get<FloatImage>(renderer.render(camera, glm::dmat4(1.0), color, options).at(Channel::color));
@@ -27,7 +27,8 @@ FloatImage draw(SoftwareRenderer& renderer, std::vector<Effect> effects) {
 
 TEST(SoftwareEffectsTest, EveryParameterChangesThePicture) {
   const Scene scene = make_ball_scene();
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   for (const EffectInfo& info : effects()) {
     const FloatImage before = draw(renderer, {make_effect(info.name)});
     EXPECT_NE(before.values, draw(renderer, {}).values) << info.name;
@@ -43,7 +44,8 @@ TEST(SoftwareEffectsTest, EveryParameterChangesThePicture) {
 
 TEST(SoftwareEffectsTest, MoreThanAPictureTakesAreRefused) {
   const Scene scene = make_ball_scene();
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   EXPECT_THROW(draw(renderer, std::vector<Effect>(max_effects + 1, make_effect("contours"))), CommandError);
   EXPECT_THROW(draw(renderer, {make_effect("brick"), make_effect("checker")}), CommandError);
 }

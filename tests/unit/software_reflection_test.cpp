@@ -70,7 +70,7 @@ int object(const std::map<Channel, Image>& pictures, int x, int y) {
   return *std::get<IntImage>(pictures.at(Channel::object)).at(x, y);
 }
 
-FloatImage draw(SoftwareRenderer& renderer, const Camera& camera, const SoftwareOptions& options) {
+FloatImage draw(const SoftwareRenderer& renderer, const Camera& camera, const SoftwareOptions& options) {
   return std::get<FloatImage>(renderer.render(camera, pose, color, options).at(Channel::color));
 }
 
@@ -84,7 +84,8 @@ float largest_difference(const FloatImage& a, const FloatImage& b) {
 TEST(SoftwareReflectionTest, AMirrorShowsWhatItsMiddleSeesAndNotItself) {
   const glm::dvec3 middle(0.1, -0.2, 0.3);
   const Scene scene = make_room(middle, 0.0f);
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const Camera camera = make_camera("equidistant:fov_deg=120", ImageSize{96, 96});
   constexpr Channel wanted[] = {Channel::color, Channel::position, Channel::normal, Channel::object};
   const auto plain = renderer.render(camera, pose, wanted, {.samples = 1});
@@ -121,24 +122,29 @@ TEST(SoftwareReflectionTest, AMirrorShowsWhatItsMiddleSeesAndNotItself) {
 
 TEST(SoftwareReflectionTest, FollowsWhatMoves) {
   Scene scene = make_room({0, 0, 0}, 0.3f);
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{48, 48});
   const SoftwareOptions options{.samples = 2, .reflect = 0, .reflection_size = 64};
   const FloatImage before = draw(renderer, camera, options);
   EXPECT_EQ(draw(renderer, camera, options).values, before.values);
   scene.instances.back().worldFromObject = translation({0.0, 0.0, -1.0});
   EXPECT_EQ(draw(renderer, camera, options).values, before.values);
-  renderer.update();
+  const SceneChanges changes{.moved = true, .lights = true};
+  index.update(changes);
+  renderer.update(changes);
   const FloatImage after = draw(renderer, camera, options);
   EXPECT_GT(largest_difference(before, after), 0.05f);
-  SoftwareRenderer anew(scene);
+  const LazySceneIndex index_anew(scene);
+  const SoftwareRenderer anew(index_anew);
   EXPECT_EQ(draw(anew, camera, options).values, after.values);
 }
 
 TEST(SoftwareReflectionTest, MapsAreThoseOfTheOptions) {
   Scene scene = make_room({0, 0, 0}, 0.1f);
   scene.instances.resize(2);  // no walls
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{32, 32});
   SoftwareOptions options{.samples = 1, .background = glm::vec3(0.5f), .reflect = 0, .reflection_size = 64};
   const FloatImage grey = draw(renderer, camera, options);
@@ -157,11 +163,13 @@ TEST(SoftwareReflectionTest, EverySimdTargetDrawsThePicture) {
   const Scene scene = make_room({0.1, -0.2, 0.3}, 0.3f);
   const Camera camera = make_camera("perspective:fov_deg=40", ImageSize{48, 48});
   const SoftwareOptions options{.samples = 1, .reflect = 0, .reflection_size = 64};
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const FloatImage best = draw(renderer, camera, options);
   for (const std::string& target : simd_targets()) {
     use_simd_target(target);
-    SoftwareRenderer anew(scene);
+    const LazySceneIndex index_anew(scene);
+    const SoftwareRenderer anew(index_anew);
     const FloatImage other = draw(anew, camera, options);
     double sum = 0.0;
     for (size_t i = 0; i < other.values.size(); ++i) sum += std::abs(other.values[i] - best.values[i]);
@@ -172,7 +180,8 @@ TEST(SoftwareReflectionTest, EverySimdTargetDrawsThePicture) {
 
 TEST(SoftwareReflectionTest, RefusesObjectsAndMapsThatCannotBe) {
   const Scene scene = make_room({0, 0, 0}, 0.3f);
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const Camera camera = make_camera("perspective", ImageSize{16, 16});
   EXPECT_THROW(draw(renderer, camera, {.reflect = 99}), CommandError);
   EXPECT_THROW(draw(renderer, camera, {.reflect = 0, .reflection_size = 1 << 20}), MachineError);

@@ -28,7 +28,7 @@ Scene make_table(const Light& light) {
 }
 
 /// Looks straight up at the floor, as nothing else can: from below nothing hides the shadow.
-FloatImage draw_floor(SoftwareRenderer& renderer, Shadows shadows, int samples = 1) {
+FloatImage draw_floor(const SoftwareRenderer& renderer, Shadows shadows, int samples = 1) {
   SoftwareOptions options{.samples = samples, .shadows = shadows, .shadow_size = 512};
   const glm::dmat4 pose = look_at_worldFromCamera({0.0, 0.9, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
   const Camera camera = make_camera("equidistant:fov_deg=160", ImageSize{128, 128});
@@ -72,7 +72,8 @@ TEST(SoftwareShadowTest, LieWhereNoLightGets) {
     light.color = glm::vec3(50.0f);
     Scene scene = make_table(light);
     scene.ambient = glm::vec3(0.0f);
-    SoftwareRenderer renderer(scene);
+    LazySceneIndex index(scene);
+    SoftwareRenderer renderer(index);
     const FloatImage bright = draw_floor(renderer, Shadows::off);
     // Lamps at three metres cast the square half as large again; the sun is a little wide, but casts it as it is.
     const double half = light.kind == Light::Kind::sun ? 1.0 : 1.5, border = 0.12;
@@ -92,16 +93,20 @@ TEST(SoftwareShadowTest, FollowWhatMovesAndAreGoneWithoutMaps) {
   lamp.position = {0.0, 3.0, 0.0};
   lamp.color = glm::vec3(50.0f);
   Scene scene = make_table(lamp);
-  SoftwareRenderer renderer(scene);
+  LazySceneIndex index(scene);
+  SoftwareRenderer renderer(index);
   const FloatImage bright = draw_floor(renderer, Shadows::off), before = draw_floor(renderer, Shadows::cube);
   EXPECT_EQ(draw_floor(renderer, Shadows::cube).values, before.values);
   EXPECT_NE(before.values, bright.values);
   EXPECT_EQ(draw_floor(renderer, Shadows::off).values, bright.values);
   scene.lights.front().position.x = 1.0;
-  renderer.update();
+  const SceneChanges changes{.moved = true, .lights = true};
+  index.update(changes);
+  renderer.update(changes);
   const FloatImage after = draw_floor(renderer, Shadows::cube);
   EXPECT_NE(after.values, before.values);
-  SoftwareRenderer anew(scene);
+  const LazySceneIndex index_anew(scene);
+  const SoftwareRenderer anew(index_anew);
   EXPECT_EQ(draw_floor(anew, Shadows::cube).values, after.values);
 }
 
@@ -114,7 +119,8 @@ TEST(SoftwareShadowTest, AreTheSameOnAnyNumberOfThreads) {
   std::vector<float> first;
   for (const size_t threads : {1, 2, 7}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    SoftwareRenderer renderer(scene);
+    LazySceneIndex index(scene);
+    SoftwareRenderer renderer(index);
     const FloatImage picture = draw_floor(renderer, Shadows::paraboloid, 4);
     if (first.empty()) first = picture.values;
     EXPECT_EQ(picture.values, first);

@@ -58,8 +58,8 @@ TEST(FinderTest, AgreesWithBruteForceThroughEveryLens) {
   const Scene scene = random_soup(200, 11);
   const glm::dmat4 pose = pose_at({0.3, -0.2, 0.1}, 0.4, 0.2);
   const Oracle oracle(scene, pose);
-  Finder finder(scene);
-  finder.set_view(pose);
+  const SceneIndex index(scene);
+  const Finder finder(index, pose);
   Verdict total;
   for (const LensModel& model : lens_models()) {
     const Camera camera = small_camera(model, full_proof() ? 200 : 40);
@@ -97,8 +97,8 @@ TEST(FinderTest, AgreesWithBruteForceInManyRandomScenes) {
     const Scene scene = random_soup(4 + i % 90, unsigned(i));
     const glm::dmat4 pose = pose_at({normal(random), normal(random), normal(random)}, normal(random), normal(random));
     const Oracle oracle(scene, pose);
-    Finder finder(scene);
-    finder.set_view(pose);
+    const SceneIndex index(scene);
+    const Finder finder(index, pose);
     for (const Camera& camera : {fisheye, panorama}) {
       const Verdict verdict =
           judge(oracle, camera, ids_of(find(finder, RayTree(rays_of(camera))), camera.size()), {.radius = 1e-3});
@@ -118,8 +118,8 @@ TEST(FinderTest, NeitherHugeNorTinyScenesLoseAnything) {
   // Powers of two, so that all of them are the same scene to the bit.
   for (const int exponent : {0, -40, 30, 90, -100}) {
     const Scene scene = random_soup(200, 5, std::ldexp(1.0f, exponent));
-    Finder finder(scene);
-    finder.set_view(glm::dmat4(1.0));
+    const SceneIndex index(scene);
+    const Finder finder(index, glm::dmat4(1.0));
     const Picture picture = find(finder, rays);
     if (exponent == 0) expected = picture.triangles;
     EXPECT_TRUE(picture.triangles == expected) << "times 2 to the " << exponent;
@@ -146,8 +146,8 @@ TEST(FinderTest, EdgesFromNearToFarStayWhereTheyAre) {
   const Scene scene = maker.finish();
   const Camera camera =
       make_camera("perspective:fov_deg=20", full_proof() ? ImageSize{1600, 1200} : ImageSize{400, 300});
-  Finder finder(scene);
-  finder.set_view(glm::dmat4(1.0));
+  const SceneIndex index(scene);
+  const Finder finder(index, glm::dmat4(1.0));
   const Picture picture = find(finder, RayTree(rays_of(camera)));
   const Verdict verdict =
       judge(Oracle(scene, glm::dmat4(1.0)), camera, ids_of(picture, camera.size()), {.radius = 1e-3});
@@ -160,13 +160,13 @@ TEST(FinderTest, LosesNothingAMillionMetresAway) {
   const Camera camera = make_camera("equidistant:fov_deg=300", ImageSize{48, 48});
   const RayTree rays(rays_of(camera));
   Scene scene = random_soup(200, 9);
-  Finder here(scene);
-  here.set_view(glm::dmat4(1.0));
+  const SceneIndex here_index(scene);
+  const Finder here(here_index, glm::dmat4(1.0));
   const Picture expected = find(here, rays);
   const glm::dvec3 far(1048576.0, -2097152.0, 524288.0);
   for (Instance& instance : scene.instances) instance.worldFromObject[3] += glm::dvec4(far, 0.0);
-  Finder there(scene);
-  there.set_view(glm::translate(glm::dmat4(1.0), far));
+  const SceneIndex there_index(scene);
+  const Finder there(there_index, glm::translate(glm::dmat4(1.0), far));
   EXPECT_EQ(find(there, rays), expected);
 }
 
@@ -181,9 +181,8 @@ TEST(FinderTest, ClosedScenesHaveNeitherHolesNorDoubleHits) {
       Material solid;
       solid.double_sided = glass.double_sided = double_sided;
       const Scene opaque = dented_ball(unsigned(i), solid), blended = dented_ball(unsigned(i), glass);
-      Finder finder(opaque), layers(blended);
-      finder.set_view(glm::dmat4(1.0));
-      layers.set_view(glm::dmat4(1.0));
+      const SceneIndex index(opaque), layers_index(blended);
+      const Finder finder(index, glm::dmat4(1.0)), layers(layers_index, glm::dmat4(1.0));
       size_t holes = 0, not_one = 0;
       const Picture picture = find(finder, rays);
       for (const glm::uvec2& hit : picture.triangles) holes += hit.x == none;
@@ -222,8 +221,8 @@ TEST(FinderTest, ATieBelongsToOneSide) {
   mesh.material = maker.add(glass);
   maker.place(maker.add(mesh), glm::dmat4(1.0));
   const Scene scene = maker.finish();
-  Finder finder(scene);
-  finder.set_view(glm::dmat4(1.0));
+  const SceneIndex index(scene);
+  const Finder finder(index, glm::dmat4(1.0));
   const auto layers = finder.blended(rays, std::vector<float>(29 * 29, std::numeric_limits<float>::infinity()));
   for (size_t i = 0; i < layers.size(); ++i) EXPECT_EQ(layers[i].size(), 1u) << "ray " << i;
   // Two triangles at one place: the lower id is seen, wherever it stands in the tree.
@@ -234,8 +233,8 @@ TEST(FinderTest, ATieBelongsToOneSide) {
   twice.material = second.add(glass);
   second.place(second.add(twice), glm::dmat4(1.0));
   const Scene doubled = second.finish();
-  Finder both(doubled);
-  both.set_view(glm::dmat4(1.0));
+  const SceneIndex both_index(doubled);
+  const Finder both(both_index, glm::dmat4(1.0));
   EXPECT_EQ(find(both, rays, Solid::labels), labels);
 }
 
@@ -253,8 +252,8 @@ TEST(FinderTest, SeesTrianglesAroundTheCentreAndNotThoseAtIt) {
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}, {9, 9, 10}, {3, 3, 3}};
   maker.place(maker.add(mesh), glm::dmat4(1.0));
   const Scene scene = maker.finish();
-  Finder finder(scene);
-  finder.set_view(glm::dmat4(1.0));
+  const SceneIndex index(scene);
+  const Finder finder(index, glm::dmat4(1.0));
   const Camera camera = make_camera("equirectangular", ImageSize{360, 180});
   const Picture picture = find(finder, RayTree(rays_of(camera)));
   for (int y = 0; y < 180; ++y) {
@@ -270,16 +269,16 @@ TEST(FinderTest, SeesTrianglesAroundTheCentreAndNotThoseAtIt) {
 
 TEST(FinderTest, EmptyScenesAndSmallImages) {
   const Scene empty;
-  Finder nothing(empty);
-  nothing.set_view(glm::dmat4(1.0));
-  EXPECT_FALSE(nothing.has_blending());
+  const SceneIndex nothing_index(empty);
+  const Finder nothing(nothing_index, glm::dmat4(1.0));
+  EXPECT_FALSE(nothing_index.has_blending());
   for (const glm::uvec2& hit :
        find(nothing, RayTree(rays_of(make_camera("equirectangular", ImageSize{33, 17})))).triangles) {
     EXPECT_EQ(hit, glm::uvec2(none));
   }
   const Scene scene = dented_ball(1, {});
-  Finder finder(scene);
-  finder.set_view(glm::dmat4(1.0));
+  const SceneIndex index(scene);
+  const Finder finder(index, glm::dmat4(1.0));
   const Picture one = find(finder, RayTree(RayMap{{1, 1}, {{0.6f, 0.0f, -0.8f}}, ""}));
   EXPECT_NE(one.triangles[0].x, none);
   EXPECT_EQ(find(finder, RayTree(RayMap{{1, 1}, {glm::vec3(0.0f)}, ""})).triangles[0], glm::uvec2(none, no_ray));
@@ -288,8 +287,8 @@ TEST(FinderTest, EmptyScenesAndSmallImages) {
 
 TEST(FinderTest, ThreadsChangeNothing) {
   const Scene scene = random_soup(2000, 21);
-  Finder finder(scene);
-  finder.set_view(glm::dmat4(1.0));
+  const SceneIndex index(scene);
+  const Finder finder(index, glm::dmat4(1.0));
   const RayTree rays(rays_of(make_camera("equidistant:fov_deg=220", ImageSize{200, 150})));
   const Picture expected = find(finder, rays);
   // More than there may be cores.
@@ -302,8 +301,8 @@ TEST(FinderTest, ThreadsChangeNothing) {
 
 TEST(FinderTest, SimdTargetsAgree) {
   const Scene scene = random_soup(2000, 23);
-  Finder finder(scene);
-  finder.set_view(glm::dmat4(1.0));
+  const SceneIndex index(scene);
+  const Finder finder(index, glm::dmat4(1.0));
   const RayTree rays(rays_of(make_camera("equidistant:fov_deg=220", ImageSize{200, 150})));
   const Picture expected = find(finder, rays);
   const std::vector<std::string> targets = simd_targets();
@@ -327,18 +326,17 @@ TEST(FinderTest, SimdTargetsAgree) {
 
 TEST(FinderTest, RefitEqualsRebuild) {
   Scene scene = random_soup(600, 31);
-  Finder refitted(scene);
+  SceneIndex refitted(scene);
+  SceneChanges changes{.moved = true};
   for (Mesh& mesh : scene.meshes) {
-    mesh.rest_positions = mesh.positions;
+    changes.deformed.insert(int(&mesh - scene.meshes.data()));
     for (glm::vec3& p : mesh.positions) p = glm::vec3(1.3f * p.z, p.x + 0.5f * p.y, p.y - 1.0f);
   }
   scene.instances[0].worldFromObject = glm::translate(glm::dmat4(1.0), glm::dvec3(0.5, 1.0, -2.0));
-  refitted.update();
-  Finder rebuilt(scene);
+  refitted.update(changes);
+  const SceneIndex rebuilt(scene);
   const RayTree rays(rays_of(make_camera("equidistant:fov_deg=220", ImageSize{200, 150})));
-  refitted.set_view(glm::dmat4(1.0));
-  rebuilt.set_view(glm::dmat4(1.0));
-  EXPECT_EQ(find(refitted, rays), find(rebuilt, rays));
+  EXPECT_EQ(find(Finder(refitted, glm::dmat4(1.0)), rays), find(Finder(rebuilt, glm::dmat4(1.0)), rays));
 }
 
 }  // namespace

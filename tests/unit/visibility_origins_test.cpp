@@ -104,8 +104,8 @@ TEST(OriginsTest, AgreesWithBruteForceInManyRandomScenes) {
     // Triangles of all sizes around the camera: some pass through the circle.
     const Scene scene = random_soup(10 + i % 90, unsigned(i));
     const glm::dmat4 pose = pose_at({normal(random), normal(random), normal(random)}, normal(random), normal(random));
-    Finder finder(scene);
-    finder.set_view(pose);
+    const SceneIndex index(scene);
+    const Finder finder(index, pose);
     for (const float radius : circles) {
       for (const Rays& rays : {on_circle(panorama, radius), on_circle(fisheye, radius),
                                in_ball(panorama, radius, static_cast<unsigned>(i))}) {
@@ -129,8 +129,8 @@ TEST(OriginsTest, AgreesWithEmbree) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const Scene scene = random_soup(3000, seed);
     const glm::dmat4 pose = pose_at({0.2, 0.1, -0.3}, 0.4, 0.1);
-    Finder finder(scene);
-    finder.set_view(pose);
+    const SceneIndex index(scene);
+    const Finder finder(index, pose);
     EmbreeScene embree(scene);
     embree.set_view(pose);
     for (const float radius : circles) {
@@ -161,8 +161,8 @@ TEST(OriginsTest, ACircleOfNothingIsTheCentreToTheBit) {
   const Camera camera = make_camera("equidistant:fov_deg=300", ImageSize{150, 150});
   for (unsigned seed = 0; seed < 3; ++seed) {
     const Scene scene = random_soup(900, seed);
-    Finder finder(scene);
-    finder.set_view(glm::dmat4(1.0));
+    const SceneIndex index(scene);
+    const Finder finder(index, glm::dmat4(1.0));
     const Rays rays = on_circle(camera, 0.0f);
     const RayTree at_centre(rays.directions), on_nothing(rays.directions, rays.origins);
     EXPECT_TRUE(at_centre.origins().empty());
@@ -179,9 +179,8 @@ TEST(OriginsTest, ClosedScenesHaveNeitherHolesNorDoubleHits) {
   glass.double_sided = true;
   for (unsigned seed = 0; seed < (full_proof() ? 100u : 2u); ++seed) {
     const Scene opaque = dented_ball(seed, Material{}), blended = dented_ball(seed, glass);
-    Finder finder(opaque), layers(blended);
-    finder.set_view(glm::dmat4(1.0));
-    layers.set_view(glm::dmat4(1.0));
+    const SceneIndex index(opaque), layers_index(blended);
+    const Finder finder(index, glm::dmat4(1.0)), layers(layers_index, glm::dmat4(1.0));
     // The ball's dents come as near as 0.4 metres, its faces a little nearer.
     for (const float radius : {0.03f, 0.25f}) {
       const Rays rays = on_circle(camera, radius);
@@ -198,8 +197,8 @@ TEST(OriginsTest, ClosedScenesHaveNeitherHolesNorDoubleHits) {
 
 TEST(OriginsTest, SimdTargetsAgree) {
   const Scene scene = random_soup(2000, 23);
-  Finder finder(scene);
-  finder.set_view(glm::dmat4(1.0));
+  const SceneIndex index(scene);
+  const Finder finder(index, glm::dmat4(1.0));
   for (const float radius : circles) {
     const Rays rays = on_circle(make_camera("equidistant:fov_deg=220", ImageSize{200, 150}), radius);
     const RayTree tree(rays.directions, rays.origins);
@@ -222,9 +221,8 @@ TEST(OriginsTest, FarFromTheCentreTheyAreFoundAsFromThere) {
   const glm::vec3 place(64.0f, -32.0f, 128.0f);
   Rays rays = on_circle(camera, 0.0f);
   rays.origins.assign(rays.origins.size(), place);
-  Finder here(scene), there(scene);
-  here.set_view(glm::dmat4(1.0));
-  there.set_view(translation(glm::dvec3(place)));
+  const SceneIndex here_index(scene), there_index(scene);
+  const Finder here(here_index, glm::dmat4(1.0)), there(there_index, translation(glm::dvec3(place)));
   const Found from_here = find(here, RayTree(rays.directions, rays.origins));
   const Found from_there = find(there, RayTree(rays.directions));
   size_t different = 0, hits = 0;

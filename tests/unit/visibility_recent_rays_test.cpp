@@ -10,7 +10,9 @@
 namespace omma {
 namespace {
 
-bool is_kept(const RaySource& rays) { return dynamic_cast<const RayTree*>(&rays) != nullptr; }
+bool is_kept(const std::shared_ptr<const RaySource>& rays) {
+  return dynamic_cast<const RayTree*>(rays.get()) != nullptr;
+}
 
 TEST(RecentRaysTest, OfACameraThatStandsStillAreKept) {
   const std::vector<glm::dvec2> one = sampling_pattern(1), four = sampling_pattern(4);
@@ -22,11 +24,11 @@ TEST(RecentRaysTest, OfACameraThatStandsStillAreKept) {
     const Camera other = make_camera(fmt::format("equidistant:fov_deg={}", fov_deg), ImageSize{120, 90});
     EXPECT_FALSE(is_kept(recent.of(other, four)));
   }
-  const RaySource& kept = recent.of(still, four);
+  const std::shared_ptr<const RaySource> kept = recent.of(still, four);
   ASSERT_TRUE(is_kept(kept));
   const RayTree made(CameraRays(still, {0, 0, 120, 90}, four));
   RayRoom room;
-  const RaySquares squares = kept.some(0, kept.squares(), room);
+  const RaySquares squares = kept->some(0, kept->squares(), room);
   ASSERT_EQ(squares.blocks.size(), made.blocks().size());
   for (size_t i = 0; i < made.blocks().size(); ++i) {
     EXPECT_EQ(squares.blocks[i].pixel_x, made.blocks()[i].pixel_x);

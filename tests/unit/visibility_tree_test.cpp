@@ -126,12 +126,14 @@ TEST(BodyTest, FollowsDeformation) {
   EXPECT_TRUE(std::all_of(met.begin(), met.end(), [](int times) { return times == 1; }));
 }
 
-/// Two meshes that stand once each, one that stands twice.
-Scene four_instances() {
+/// Instances of the meshes, all at one place.
+Scene scene_with(const std::vector<int>& meshes) {
   Scene scene;
   scene.materials.emplace_back();
-  for (unsigned m = 0; m < 3; ++m) scene.meshes.push_back(random_mesh(50, m));
-  for (const int mesh : {0, 1, 2, 2}) {
+  for (int m = 0; m <= *std::max_element(meshes.begin(), meshes.end()); ++m) {
+    scene.meshes.push_back(random_mesh(50, unsigned(m)));
+  }
+  for (const int mesh : meshes) {
     scene.nodes.emplace_back();
     Instance instance;
     instance.mesh = mesh;
@@ -142,29 +144,63 @@ Scene four_instances() {
   return scene;
 }
 
+/// Checks that each instance stands at just one place, as the scene says. Returns how many are gone from bodies.
+size_t expect_all_placed(const Scene& scene, const Bodies& bodies) {
+  std::vector<int> placed(scene.instances.size());
+  size_t gone = 0;
+  for (const Placement& placement : bodies.placements()) {
+    const Body& body = bodies.bodies()[placement.body];
+    EXPECT_EQ(placement.instances.size(), body.meshes.size());
+    for (size_t i = 0; i < placement.instances.size(); ++i) {
+      if (placement.instances[i] == Placement::gone) {
+        ++gone;
+        continue;
+      }
+      const Instance& instance = scene.instances[placement.instances[i]];
+      ++placed[placement.instances[i]];
+      EXPECT_EQ(instance.mesh, body.meshes[i]);
+      EXPECT_EQ(instance.worldFromObject, placement.worldFromBody);
+    }
+  }
+  EXPECT_EQ(placed, std::vector<int>(scene.instances.size(), 1));
+  return gone;
+}
+
 TEST(BodiesTest, WhatStandsTogetherIsOneBodyUntilItPartsWays) {
-  Scene scene = four_instances();
+  Scene scene = scene_with({0, 1, 2, 2});
   Bodies bodies(scene);
   EXPECT_EQ(bodies.bodies().size(), 2u);      // the first two meshes, and the third
   EXPECT_EQ(bodies.placements().size(), 3u);  // the third twice
   const auto move = [](Instance& instance) { instance.worldFromObject[3].x += 1.0; };
   move(scene.instances[0]);
   move(scene.instances[1]);
-  bodies.update();
-  EXPECT_EQ(bodies.bodies().size(), 2u);
-  move(scene.instances[1]);
-  bodies.update();
-  EXPECT_EQ(bodies.bodies().size(), 3u);
+  bodies.update({.moved = true});
+  // More than half of what stood together has moved away from there.
+  EXPECT_EQ(expect_all_placed(scene, bodies), 0u);
   EXPECT_EQ(bodies.placements().size(), 4u);
-  std::vector<int> placed(4);
-  for (const Placement& placement : bodies.placements()) {
-    ASSERT_EQ(placement.instances.size(), bodies.bodies()[placement.body].meshes.size());
-    for (size_t i = 0; i < placement.instances.size(); ++i) {
-      ++placed[placement.instances[i]];
-      EXPECT_EQ(scene.instances[placement.instances[i]].mesh, bodies.bodies()[placement.body].meshes[i]);
-    }
-  }
-  EXPECT_EQ(placed, std::vector<int>(4, 1));
+  move(scene.instances[1]);
+  bodies.update({.moved = true});
+  EXPECT_EQ(expect_all_placed(scene, bodies), 0u);
+}
+
+TEST(BodiesTest, OneThatLeavesManyLeavesAGap) {
+  Scene scene = scene_with({0, 1, 2, 3, 4, 5, 6, 7});
+  Bodies bodies(scene);
+  ASSERT_EQ(bodies.bodies().size(), 1u);
+  const Body* together = bodies.bodies().data();
+  const std::vector<uint32_t> tags = together->part;
+  scene.instances[3].worldFromObject[3].y = 2.0;
+  bodies.update({.moved = true});
+  EXPECT_EQ(expect_all_placed(scene, bodies), 1u);
+  EXPECT_EQ(bodies.bodies().size(), 2u);
+  scene.instances.erase(scene.instances.begin());
+  bodies.update({.listed = true});
+  EXPECT_EQ(expect_all_placed(scene, bodies), 2u);
+  EXPECT_EQ(bodies.bodies().size(), 2u);
+  EXPECT_EQ(bodies.bodies().front().part, tags);  // it was not sorted anew
+  scene.instances[2].worldFromObject[3].y = 0.0;
+  bodies.update({.moved = true});
+  EXPECT_EQ(expect_all_placed(scene, bodies), 1u);  // it is back
 }
 
 }  // namespace

@@ -205,7 +205,32 @@ Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 
 void Context::make_current() const {
-  eglMakeCurrent(state_->connection.display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->connection.context);
+  const EGLContext context = state_->connection.context;
+  if (eglGetCurrentContext() == context) return;
+  eglBindAPI(EGL_OPENGL_API);
+  if (!eglMakeCurrent(state_->connection.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+    throw MachineError("the OpenGL context cannot be made current on this thread: {}", egl_error());
+  }
+}
+
+Current::Current()
+    : display_(EGL_NO_DISPLAY), draw_(EGL_NO_SURFACE), read_(EGL_NO_SURFACE), context_(EGL_NO_CONTEXT), api_(0) {
+  if (!egl_present()) return;
+  api_ = eglQueryAPI();
+  eglBindAPI(EGL_OPENGL_API);
+  display_ = eglGetCurrentDisplay();
+  draw_ = eglGetCurrentSurface(EGL_DRAW);
+  read_ = eglGetCurrentSurface(EGL_READ);
+  context_ = eglGetCurrentContext();
+}
+
+Current::~Current() {
+  if (api_ == 0) return;
+  if (eglGetCurrentContext() != context_) {
+    const EGLDisplay display = context_ != EGL_NO_CONTEXT ? display_ : eglGetCurrentDisplay();
+    if (display != EGL_NO_DISPLAY) eglMakeCurrent(display, draw_, read_, context_);
+  }
+  eglBindAPI(EGLenum(api_));
 }
 const std::string& Context::renderer() const { return state_->renderer; }
 const std::string& Context::version() const { return state_->version; }

@@ -32,8 +32,9 @@ struct Limits {
   float anisotropy = 0.0f;   ///< 1 where the driver has no anisotropic filtering
 };
 
-/// One context, current on the thread that made it. The environment variable OMMA_GL_DEBUG makes the driver's debug
-/// output visible: `print` shows errors and warnings, `fatal` also ends the program at the first error (tests use it).
+/// One context, current on the thread that made it and on no other until that lets go of it (Current). The environment
+/// variable OMMA_GL_DEBUG makes the driver's debug output visible: `print` shows errors and warnings, `fatal` also ends
+/// the program at the first error (tests use it).
 class Context {
  public:
   /// Takes the first usable hardware device, else the first usable software device. Throws MachineError saying what
@@ -43,6 +44,7 @@ class Context {
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
 
+  /// Throws MachineError when it is current on another thread.
   void make_current() const;
   const std::string& renderer() const;
   const std::string& version() const;
@@ -53,6 +55,20 @@ class Context {
  private:
   struct State;
   std::unique_ptr<State> state_;
+};
+
+/// Whatever is current on this thread is current again when this goes, and may be made current elsewhere meanwhile.
+class Current {
+ public:
+  Current();
+  explicit Current(const Context& context) : Current() { context.make_current(); }
+  ~Current();
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+
+ private:
+  void *display_, *draw_, *read_, *context_;
+  unsigned api_;
 };
 
 }  // namespace omma::gl

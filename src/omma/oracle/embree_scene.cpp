@@ -170,10 +170,8 @@ EmbreeScene& EmbreeScene::operator=(EmbreeScene&&) noexcept = default;
 
 bool EmbreeScene::has_blending() const { return state_->has_blending; }
 
-void EmbreeScene::update() {
-  for (size_t m = 0; m < state_->meshes.size(); ++m) {
-    if (state_->scene->meshes[m].deforms()) state_->build(m);
-  }
+void EmbreeScene::update(const SceneChanges& changes) {
+  for (const int mesh : changes.deformed) state_->build(size_t(mesh));
 }
 
 void EmbreeScene::set_view(const glm::dmat4& worldFromCamera) {

@@ -20,7 +20,7 @@ class EmbreeScene {
   EmbreeScene& operator=(EmbreeScene&&) noexcept;
 
   /// Rebuilds what set_time deformed.
-  void update();
+  void update(const SceneChanges& changes);
   /// Makes everything relative to the camera, so that rays start at zero and lose no precision far from the world's
   /// origin.
   void set_view(const glm::dmat4& worldFromCamera);

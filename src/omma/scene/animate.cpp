@@ -143,6 +143,7 @@ void skin(Mesh& mesh, const std::vector<Node>& nodes, const glm::dmat4& worldFro
 void move_instances(Scene& scene, const Animation* animation, double time) {
   std::vector<bool> deformed(scene.meshes.size(), false);
   for (Instance& instance : scene.instances) {
+    if (instance.node < 0) continue;
     const glm::dmat4& worldFromNode = scene.nodes[instance.node].worldFromNode;
     Mesh& mesh = scene.meshes[instance.mesh];
     instance.worldFromObject = mesh.skin ? glm::dmat4(1.0) : worldFromNode;
@@ -167,7 +168,7 @@ void move_instances(Scene& scene, const Animation* animation, double time) {
 
 }  // namespace
 
-void set_time(Scene& scene, double seconds, std::string_view animation_name) {
+SceneChanges set_time(Scene& scene, double seconds, std::string_view animation_name) {
   if (!std::isfinite(seconds)) throw CommandError("time must be finite, not {}", seconds);
   const Animation* animation = find_animation(scene, animation_name);
   double time = 0.0;
@@ -187,6 +188,11 @@ void set_time(Scene& scene, double seconds, std::string_view animation_name) {
       camera.worldFromCamera = without_scale(scene.nodes[camera.node].worldFromNode);
     }
   }
+  SceneChanges changes{.moved = true, .lights = true};
+  for (size_t m = 0; m < scene.meshes.size(); ++m) {
+    if (scene.meshes[m].deforms()) changes.deformed.insert(int(m));
+  }
+  return changes;
 }
 
 }  // namespace omma

@@ -15,11 +15,13 @@ int find_object(const Scene& scene, std::string_view text) {
   std::vector<std::string> names;
   for (const Instance& instance : scene.instances) {
     objects.insert(instance.object);
+    if (instance.node < 0) continue;
     const std::string& name = scene.nodes[size_t(instance.node)].name;
     if (name.empty()) continue;
     names.push_back(name);
     if (name == text) named.insert(instance.object);
   }
+  if (objects.empty()) throw CommandError("the scene has no object '{}': nothing is in it", text);
   if (named.size() == 1) return *named.begin();
   if (named.size() > 1) {
     throw CommandError("'{}' is the name of objects {}; give one of their numbers", text, fmt::join(named, ", "));

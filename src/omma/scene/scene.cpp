@@ -33,12 +33,18 @@ Bounds Scene::bounds() const {
   return result;
 }
 
-void finish_scene(Scene& scene) {
+void number_triangles(Scene& scene) {
   uint32_t first = 0;
   for (Instance& instance : scene.instances) {
     instance.first_triangle = first;
     first += static_cast<uint32_t>(scene.meshes[instance.mesh].triangles.size());
   }
+}
+
+void finish_scene(Scene& scene) {
+  scene.next_key = 0;
+  for (Instance& instance : scene.instances) instance.key = scene.next_key++;
+  number_triangles(scene);
   for (Mesh& mesh : scene.meshes) {
     if (!mesh.skin && mesh.morph_targets.empty()) continue;
     mesh.rest_positions = mesh.positions;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "omma/math/bounds.h"
+#include "omma/scene/changes.h"
 
 namespace omma {
 
@@ -102,9 +103,11 @@ struct Node {
 /// worldFromObject is the identity.
 struct Instance {
   int mesh = 0;
-  int node = 0;
+  int node = 0;  ///< -1: it stands where it was put, whatever the time
   int object = 0;
   uint32_t first_triangle = 0;  ///< the id of its first triangle; ids count on through all instances
+  /// Which one it is, whatever its place in the list: no other instance of the scene has it, or had it before.
+  uint32_t key = 0;
   glm::dmat4 worldFromObject{1.0};
 };
 
@@ -167,6 +170,7 @@ struct Scene {
   glm::vec3 ambient{0.25f};   ///< linear radiance from everywhere
   std::vector<SceneCamera> cameras;
   std::vector<Animation> animations;
+  uint32_t next_key = 0;  ///< of the next instance that is added
 
   /// A place to stand when neither the user nor the file names one.
   glm::dvec3 default_from{0.0, 0.0, 5.0};
@@ -179,15 +183,18 @@ struct Scene {
   Bounds bounds() const;          ///< world, over all instances
 };
 
-/// For whoever builds a scene by hand: numbers the triangles through all instances, keeps the rest pose of meshes that
-/// deform, and moves everything to time 0. Objects are the caller's to number.
+/// For whoever builds a scene by hand: numbers the instances and, through all of them, the triangles, keeps the rest
+/// pose of meshes that deform, and moves everything to time 0. Objects are the caller's to number.
 void finish_scene(Scene& scene);
+
+/// Counts the triangles' ids through all instances: after instances were added or removed.
+void number_triangles(Scene& scene);
 
 /// Moves nodes, instances, lights and cameras to `seconds` of the scene's animation (by default its first; names from
 /// Scene::animations) and deforms skinned and morphed meshes. The time wraps around at the animation's end. A scene
 /// without animation ignores the time. Throws CommandError when there is no animation of that name or the time is not
-/// finite.
-void set_time(Scene& scene, double seconds, std::string_view animation = {});
+/// finite. Returns what has changed.
+SceneChanges set_time(Scene& scene, double seconds, std::string_view animation = {});
 
 /// The scene of a text: a built-in (`city`, `city:blocks=54,seed=1`; see `builtin_scenes()`) or a file that assimp
 /// reads. A text with an extension or a `/` is a file.

@@ -18,22 +18,19 @@ void write(const RayBlock& block, const BlockPicture& picture, bool flat, int si
 
 }  // namespace
 
-void ShadowDepths::use(const Scene& scene, Shadows kind, int size, Finder& finder, RecentRays& rays) {
-  if (kind == kind_ && size == size_) return;
-  kind_ = Shadows::off;
-  layers_ = plan_shadow_layers(lights_of(scene), boxes_of_triangles(scene), kind, size);
+ShadowDepths::ShadowDepths(const SceneIndex& index, Shadows kind, int size, RecentRays& rays)
+    : size_(size),
+      layers_(plan_shadow_layers(lights_of(index.scene()), boxes_of_triangles(index.scene()), kind, size)) {
   const size_t texels = size_t(size) * size_t(size);
   depths_.assign(layers_.size() * texels, 0.0f);
   for (size_t i = 0; i < layers_.size(); ++i) {
     const ShadowLayer& layer = layers_[i];
-    finder.set_view(layer.worldFromMap);
-    finder.each_block(rays.of(layer.camera, {glm::dvec2(0.0)}), Solid::labels,
-                      [&](const RayBlock& block, const BlockPicture& picture) {
-                        write(block, picture, layer.flat(), size, &depths_[i * texels]);
-                      });
+    const Finder finder(index, layer.worldFromMap);
+    const std::shared_ptr<const RaySource> of_layer = rays.of(layer.camera, {glm::dvec2(0.0)});
+    finder.each_block(*of_layer, Solid::labels, [&](const RayBlock& block, const BlockPicture& picture) {
+      write(block, picture, layer.flat(), size, &depths_[i * texels]);
+    });
   }
-  kind_ = kind;
-  size_ = size;
 }
 
 }  // namespace omma

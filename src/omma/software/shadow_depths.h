@@ -9,16 +9,15 @@
 
 namespace omma {
 
+/// Of all lights at once; of a scene that has not changed since.
 class ShadowDepths {
  public:
   /// What the maps' depths are a multiple of, metres.
   static constexpr float near = 1.0f;
 
-  /// Finds the maps of all lights that are not there, of `size` texels along a side. Leaves the finder with a light's
-  /// view. Throws MachineError for maps that take too much memory. Runs on all cores.
-  void use(const Scene& scene, Shadows kind, int size, Finder& finder, RecentRays& rays);
-  /// Lights or what they shine on have moved.
-  void scene_changed() { kind_ = Shadows::off; }
+  /// Finds the maps, of `size` texels along a side. Throws MachineError for maps that take too much memory. Runs on
+  /// all cores.
+  ShadowDepths(const SceneIndex& index, Shadows kind, int size, RecentRays& rays);
 
   const std::vector<ShadowLayer>& layers() const { return layers_; }
   /// Layer by layer, rows from the top: near / distance, for flat maps / how far ahead; 0 where nothing is.
@@ -26,10 +25,9 @@ class ShadowDepths {
   int size() const { return size_; }
 
  private:
+  int size_;
   std::vector<ShadowLayer> layers_;
   std::vector<float> depths_;
-  Shadows kind_ = Shadows::off;
-  int size_ = 0;
 };
 
 }  // namespace omma

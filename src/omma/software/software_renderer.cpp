@@ -54,20 +54,38 @@ std::vector<SeenInstance> seen_instances(const Scene& scene, const glm::dmat4& c
 
 }  // namespace
 
-void SoftwareRenderer::prepare_textures() {
-  if (!textures_.empty() || scene_->textures.empty()) return;
-  std::vector<std::optional<MipTexture>> made(scene_->textures.size());
-  tbb::parallel_for(size_t{0}, made.size(), [&](size_t i) { made[i].emplace(scene_->textures[i]); });
-  for (std::optional<MipTexture>& texture : made) textures_.push_back(std::move(*texture));
+void SoftwareRenderer::update(const SceneChanges& changes) {
+  if (changes.textures) textures_.clear();
+  if (changes.of_shape() || changes.lights || changes.materials) {
+    shadow_depths_.clear();
+    surroundings_.clear();
+  }
+}
+
+std::shared_ptr<const SoftwareRenderer::Textures> SoftwareRenderer::textures() const {
+  return textures_.get(scene_->textures.size(), [&](size_t count) {
+    std::vector<std::optional<MipTexture>> made(count);
+    tbb::parallel_for(size_t{0}, count, [&](size_t i) { made[i].emplace(scene_->textures[i]); });
+    Textures textures;
+    textures.reserve(count);
+    for (std::optional<MipTexture>& texture : made) textures.push_back(std::move(*texture));
+    return std::make_shared<const Textures>(std::move(textures));
+  });
+}
+
+std::shared_ptr<const ShadowDepths> SoftwareRenderer::shadow_depths(const ShadowKey& key) const {
+  return shadow_depths_.get(key, [&](const ShadowKey& of) {
+    return std::make_shared<const ShadowDepths>(index_->get(), of.kind, of.size, rays_);
+  });
 }
 
 void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   const SoftwareOptions& options, std::optional<int> hidden_object, FloatImage& image,
-                                  SoftwareStats& stats, const ChannelWriter* channels) {
+                                  SoftwareStats& stats, const ChannelWriter* channels) const {
   Stopwatch watch(stats);
-  prepare_textures();
+  const std::shared_ptr<const Textures> of_scene = textures();
   const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
-  ShadedScene shaded{.scene = scene_, .worldFromCamera = worldFromCamera, .lights = {}, .textures = textures_};
+  ShadedScene shaded{.scene = scene_, .worldFromCamera = worldFromCamera, .lights = {}, .textures = *of_scene};
   shaded.background = options.background;
   shaded.anisotropic = options.anisotropic;
   shaded.effects = options.effects;
@@ -77,19 +95,21 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
     instances.emplace_back(seen, glm::dmat3(cameraFromWorld), seen.object == options.reflect);
   }
   watch.add_to("prepare");
+  std::shared_ptr<const ShadowDepths> shadows;
   if (options.shadows != Shadows::off) {
-    shadow_depths_.use(*scene_, options.shadows, options.shadow_size, finder_, rays_);
-    shaded.shadow_maps =
-        shadow_map_records(shadow_depths_.layers(), worldFromCamera, ShadowDepths::near, shaded.lights);
-    shaded.shadow_depths = shadow_depths_.depths().data();
+    shadows = shadow_depths({options.shadows, options.shadow_size});
+    shaded.shadow_maps = shadow_map_records(shadows->layers(), worldFromCamera, ShadowDepths::near, shaded.lights);
+    shaded.shadow_depths = shadows->depths().data();
     shaded.shadow_size = options.shadow_size;
     watch.add_to("shadow maps");
   }
+  std::shared_ptr<const Surroundings> surroundings;
   if (options.reflect) {
-    shaded.surroundings = &surroundings_of(options);
+    surroundings = surroundings_of(options);
+    shaded.surroundings = surroundings.get();
     watch.add_to("reflection maps");
   }
-  finder_.set_view(worldFromCamera, hidden_object);
+  const Finder finder(index_->get(), worldFromCamera, hidden_object);
   watch.add_to("place");
 
   tbb::enumerable_thread_specific<Fragments> scratch([&] { return Fragments(instances); });
@@ -98,10 +118,10 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   for (size_t first = 0; first < samples; first += most_samples, ++stats.passes) {
     const size_t count = std::min(most_samples, samples - first);
     const float share = float(count) / float(samples);
-    const RaySource& rays =
+    const std::shared_ptr<const RaySource> rays =
         rays_.of(camera, {pattern.begin() + ptrdiff_t(first), pattern.begin() + ptrdiff_t(first + count)});
     watch.add_to("rays");
-    finder_.each_square(rays, [&](std::span<const FoundBlock> found) {
+    finder.each_square(*rays, [&](std::span<const FoundBlock> found) {
       Fragments& fragments = scratch.local();
       fragments.collect(found);
       const RayBlock& block = *found.front().block;
@@ -114,46 +134,45 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
   for (const Fragments& fragments : scratch) stats.fragments += fragments.surfaces();
 }
 
-const Surroundings& SoftwareRenderer::surroundings_of(const SoftwareOptions& options) {
-  const SurroundingsKey key{*options.reflect, options.reflection_size, options.background, options.shadows,
-                            options.shadow_size};
-  if (surroundings_ && surroundings_key_ == key) return *surroundings_;
-  surroundings_.reset();
-  if (key.size > Surroundings::most_size) {
-    throw MachineError("a reflection map of {} texels is too large; up to {} are possible", key.size,
-                       Surroundings::most_size);
-  }
-  const ReflectionLayers layers = plan_reflection_layers(*scene_, key.object, key.size);
-  const SoftwareOptions plain{.samples = 1,
-                              .anisotropic = false,
-                              .background = key.background,
-                              .shadows = key.shadows,
-                              .shadow_size = key.shadow_size};
-  std::array<FloatImage, 2> maps;
-  for (size_t side = 0; side < maps.size(); ++side) {
-    SoftwareStats stats;
-    maps[side] = FloatImage(layers.camera.size(), 3);
-    draw_color(layers.camera, layers.worldFromMap[side], plain, key.object, maps[side], stats);
-  }
-  surroundings_key_ = key;
-  return surroundings_.emplace(layers, maps);
+std::shared_ptr<const Surroundings> SoftwareRenderer::surroundings_of(const SoftwareOptions& options) const {
+  const SurroundingsKey wanted{
+      *options.reflect, options.reflection_size, options.background, {options.shadows, options.shadow_size}};
+  return surroundings_.get(wanted, [&](const SurroundingsKey& key) {
+    if (key.size > Surroundings::most_size) {
+      throw MachineError("a reflection map of {} texels is too large; up to {} are possible", key.size,
+                         Surroundings::most_size);
+    }
+    const ReflectionLayers layers = plan_reflection_layers(*scene_, key.object, key.size);
+    const SoftwareOptions plain{.samples = 1,
+                                .anisotropic = false,
+                                .background = key.background,
+                                .shadows = key.shadows.kind,
+                                .shadow_size = key.shadows.size};
+    std::array<FloatImage, 2> maps;
+    for (size_t side = 0; side < maps.size(); ++side) {
+      SoftwareStats stats;
+      maps[side] = FloatImage(layers.camera.size(), 3);
+      draw_color(layers.camera, layers.worldFromMap[side], plain, key.object, maps[side], stats);
+    }
+    return std::make_shared<const Surroundings>(layers, maps);
+  });
 }
 
 void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera,
-                                     const ChannelWriter& writer, SoftwareStats& stats) {
+                                     const ChannelWriter& writer, SoftwareStats& stats) const {
   Stopwatch watch(stats);
-  finder_.set_view(worldFromCamera);
+  const Finder finder(index_->get(), worldFromCamera);
   watch.add_to("place");
-  const RaySource& rays = rays_.of(camera, {glm::dvec2(0.0)});
+  const std::shared_ptr<const RaySource> rays = rays_.of(camera, {glm::dvec2(0.0)});
   watch.add_to("rays");
-  finder_.each_block(rays, Solid::labels,
-                     [&](const RayBlock& block, const BlockPicture& picture) { writer.write(block, picture); });
+  finder.each_block(*rays, Solid::labels,
+                    [&](const RayBlock& block, const BlockPicture& picture) { writer.write(block, picture); });
   watch.add_to("find");
 }
 
 std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                                   std::span<const Channel> wanted, const SoftwareOptions& options,
-                                                  SoftwareStats* stats) {
+                                                  SoftwareStats* stats) const {
   if (wanted.empty()) throw CommandError("no channel is asked for");
   if (options.samples < 1) throw CommandError("{} samples per pixel; 1 or more make a picture", options.samples);
   check_effects(options.effects);
@@ -165,17 +184,25 @@ std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const gl
   const auto color = images.find(Channel::color);
   const bool has_color = color != images.end(), has_others = images.size() > (has_color ? 1u : 0u);
   // All else is sampled at the pixels' centres, where a single sample lies, too; blended surfaces are solid there.
-  const bool at_once = has_color && has_others && options.samples == 1 && !finder_.has_blending();
+  const bool at_once = has_color && has_others && options.samples == 1 && !index_->get().has_blending();
   if (has_color) {
     draw_color(camera, worldFromCamera, options, std::nullopt, std::get<FloatImage>(color->second), took,
                at_once ? &writer : nullptr);
   }
   if (has_others && !at_once) draw_channels(camera, worldFromCamera, writer, took);
-  took.bytes = finder_.bytes() + rays_.bytes() + shadow_depths_.depths().size() * sizeof(float);
-  for (const MipTexture& texture : textures_) took.bytes += texture.bytes();
-  if (surroundings_) took.bytes += surroundings_->bytes();
+  took.bytes = bytes();
   if (stats != nullptr) *stats = took;
   return images;
+}
+
+size_t SoftwareRenderer::bytes() const {
+  size_t sum = index_->bytes() + rays_.bytes();
+  shadow_depths_.each([&](const ShadowDepths& maps) { sum += maps.depths().size() * sizeof(float); });
+  textures_.each([&](const Textures& textures) {
+    for (const MipTexture& texture : textures) sum += texture.bytes();
+  });
+  surroundings_.each([&](const Surroundings& maps) { sum += maps.bytes(); });
+  return sum;
 }
 
 }  // namespace omma

@@ -7,11 +7,13 @@
 
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "omma/base/shared_cache.h"
 #include "omma/camera/camera.h"
 #include "omma/image/image.h"
 #include "omma/scene/scene.h"
@@ -46,52 +48,57 @@ struct SoftwareStats {
   size_t bytes = 0;  ///< of the finder, its cameras and the textures; not of the pictures
 };
 
+/// Pictures of one scene, several at once: what they need of it is made once, and shared.
 class SoftwareRenderer {
  public:
-  /// Sorts the scene's triangles. The scene must outlive this object.
-  explicit SoftwareRenderer(const Scene& scene) : scene_(&scene), finder_(scene) {}
+  /// The index, and its scene, must outlive this object.
+  explicit SoftwareRenderer(const LazySceneIndex& index) : scene_(&index.scene()), index_(&index) {}
 
-  /// Takes over what set_time changed: transforms, lights and deformed vertices.
-  void update() {
-    finder_.update();
-    shadow_depths_.scene_changed();
-    surroundings_.reset();
-  }
+  /// The scene has changed so, and the index with it. While nothing is drawn.
+  void update(const SceneChanges& changes);
 
   /// The image of every channel asked for, of the camera's size: colour linear, lengths in metres, `normal` and
   /// `position` in the world's frame, what channels() says where nothing is. `worldFromCamera` is rigid. Runs on all
-  /// cores; the result is the same on any number of them. Throws CommandError for no channel, no sample, a effects that
-  /// check_effects refuses and an object that is not there, MachineError for textures and maps too large.
+  /// cores; the result is the same on any number of them. May be called by several threads at once. Throws CommandError
+  /// for no channel, no sample, effects that check_effects refuses and an object that is not there, MachineError for
+  /// textures and maps too large.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const SoftwareOptions& options = {},
-                                  SoftwareStats* stats = nullptr);
+                                  SoftwareStats* stats = nullptr) const;
 
  private:
-  void prepare_textures();
-  /// Without `hidden_object`; writes what the first samples find to `channels`, too, if there are any.
-  void draw_color(const Camera& camera, const glm::dmat4& worldFromCamera, const SoftwareOptions& options,
-                  std::optional<int> hidden_object, FloatImage& image, SoftwareStats& stats,
-                  const ChannelWriter* channels = nullptr);
-  /// What surrounds options.reflect, drawn where it is not there.
-  const Surroundings& surroundings_of(const SoftwareOptions& options);
-  void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, const ChannelWriter& writer,
-                     SoftwareStats& stats);
-
-  const Scene* scene_;
-  Finder finder_;
-  std::vector<MipTexture> textures_;
-  RecentRays rays_;
-  ShadowDepths shadow_depths_;
+  using Textures = std::vector<MipTexture>;
+  struct ShadowKey {
+    Shadows kind;
+    int size;
+    friend bool operator==(const ShadowKey&, const ShadowKey&) = default;
+  };
   /// What surroundings depend on beside the scene.
   struct SurroundingsKey {
     int object, size;
     std::optional<glm::vec3> background;
-    Shadows shadows;
-    int shadow_size;
+    ShadowKey shadows;
     friend bool operator==(const SurroundingsKey&, const SurroundingsKey&) = default;
   };
-  SurroundingsKey surroundings_key_{};
-  std::optional<Surroundings> surroundings_;
+
+  std::shared_ptr<const Textures> textures() const;
+  std::shared_ptr<const ShadowDepths> shadow_depths(const ShadowKey& key) const;
+  /// What surrounds options.reflect, drawn where it is not there.
+  std::shared_ptr<const Surroundings> surroundings_of(const SoftwareOptions& options) const;
+  /// Without `hidden_object`; writes what the first samples find to `channels`, too, if there are any.
+  void draw_color(const Camera& camera, const glm::dmat4& worldFromCamera, const SoftwareOptions& options,
+                  std::optional<int> hidden_object, FloatImage& image, SoftwareStats& stats,
+                  const ChannelWriter* channels = nullptr) const;
+  void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, const ChannelWriter& writer,
+                     SoftwareStats& stats) const;
+  size_t bytes() const;
+
+  const Scene* scene_;
+  const LazySceneIndex* index_;
+  mutable RecentRays rays_;
+  mutable SharedCache<size_t, Textures, 1> textures_;  ///< by how many there are
+  mutable SharedCache<ShadowKey, ShadowDepths, 2> shadow_depths_;
+  mutable SharedCache<SurroundingsKey, Surroundings, 2> surroundings_;
 };
 
 }  // namespace omma

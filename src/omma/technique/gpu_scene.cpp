@@ -50,16 +50,25 @@ enum Attribute : GLuint { position_attribute, packed_attribute, color_attribute,
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&scene), materials_(scene, context) {
+GpuScene::GpuScene(const Scene& scene, const gl::Context& context)
+    : scene_(&scene), context_(&context), materials_(scene, context), frame_(sizeof(FrameBlock)) {
+  upload_meshes();
+  list_parts();
+  place_parts();
+}
+
+void GpuScene::upload_meshes() {
+  const Scene& scene = *scene_;
+  first_vertex_.clear();
+  first_index_.clear();
   size_t vertices = 0, triangles = 0;
   for (const Mesh& mesh : scene.meshes) {
     first_vertex_.push_back(uint32_t(vertices));
     first_index_.push_back(uint32_t(3 * triangles));
     vertices += mesh.positions.size();
     triangles += mesh.triangles.size();
-    has_blending_ |= scene.materials[size_t(mesh.material)].alpha == Material::Alpha::blend;
   }
-  if (const auto most = size_t(context.limits().buffer_texels); vertices > most || triangles > most) {
+  if (const auto most = size_t(context_->limits().buffer_texels); vertices > most || triangles > most) {
     throw MachineError("the scene has {} vertices and {} triangles, this driver's buffers hold {} of each", vertices,
                        triangles, most);
   }
@@ -68,9 +77,11 @@ GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&sce
   colors_ = gl::Buffer(vertices * sizeof(glm::u8vec4));
   indices_ = gl::Buffer(triangles * sizeof(glm::uvec3));
 
+  bounds_.resize(scene.meshes.size());
   for (size_t m = 0; m < scene.meshes.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
     upload_vertices(m);
+    measure(m);
     if (mesh.colors.empty()) {
       colors_.write(std::span<const glm::u8vec4>(std::vector<glm::u8vec4>(mesh.positions.size(), glm::u8vec4(255))),
                     first_vertex_[m] * sizeof(glm::u8vec4));
@@ -81,12 +92,22 @@ GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&sce
     for (glm::uvec3& triangle : corners) triangle += first_vertex_[m];
     indices_.write(std::span<const glm::uvec3>(corners), first_index_[m] * sizeof(uint32_t));
   }
+  position_texels_ = gl::Texture::of_buffer(GL_RGB32F, positions_);
+  attribute_texels_ = gl::Texture::of_buffer(GL_RGBA32UI, attributes_);
+  color_texels_ = gl::Texture::of_buffer(GL_RGBA8, colors_);
+  triangle_texels_ = gl::Texture::of_buffer(GL_RGB32UI, indices_);
+}
 
+void GpuScene::list_parts() {
+  const Scene& scene = *scene_;
+  has_blending_ = false;
+  parts_.clear();
   std::vector<glm::uvec2> part_records;
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
     const auto count = uint32_t(mesh.triangles.size());
+    has_blending_ |= scene.materials[size_t(mesh.material)].alpha == Material::Alpha::blend;
     for (uint32_t first = 0; first < count; first += part_triangles) {
       Part part;
       part.instance = int(i);
@@ -100,14 +121,11 @@ GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&sce
   }
   part_records_ = gl::Buffer(std::span<const glm::uvec2>(part_records));
   instances_ = gl::Buffer(scene.instances.size() * sizeof(InstanceRecord));
-  frame_ = gl::Buffer(sizeof(FrameBlock));
-
-  position_texels_ = gl::Texture::of_buffer(GL_RGB32F, positions_);
-  attribute_texels_ = gl::Texture::of_buffer(GL_RGBA32UI, attributes_);
-  color_texels_ = gl::Texture::of_buffer(GL_RGBA8, colors_);
-  triangle_texels_ = gl::Texture::of_buffer(GL_RGB32UI, indices_);
   instance_texels_ = gl::Texture::of_buffer(GL_RGBA32UI, instances_);
+  make_vertex_array();
+}
 
+void GpuScene::make_vertex_array() {
   vertex_array_ = gl::create_vertex_array();
   const GLuint array = vertex_array_.id();
   const auto add = [array](GLuint attribute, const gl::Buffer& buffer, GLsizei stride) {
@@ -126,8 +144,6 @@ GpuScene::GpuScene(const Scene& scene, const gl::Context& context) : scene_(&sce
   glVertexArrayAttribIFormat(array, part_attribute, 2, GL_UNSIGNED_INT, 0);
   glVertexArrayBindingDivisor(array, part_attribute, 1);
   glVertexArrayElementBuffer(array, indices_.id());
-
-  place_parts();
 }
 
 bool GpuScene::reflects(int material) const {
@@ -145,25 +161,39 @@ void GpuScene::upload_vertices(size_t m) {
   positions_.write(std::span<const glm::vec3>(mesh.positions), first_vertex_[m] * sizeof(glm::vec3));
 }
 
+void GpuScene::measure(size_t m) {
+  const Mesh& mesh = scene_->meshes[m];
+  bounds_[m].assign((mesh.triangles.size() + part_triangles - 1) / part_triangles, {});
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int c = 0; c < 3; ++c) bounds_[m][t / part_triangles].add(glm::dvec3(mesh.positions[mesh.triangles[t][c]]));
+  }
+}
+
 void GpuScene::place_parts() {
   for (Part& part : parts_) {
     const Instance& instance = scene_->instances[size_t(part.instance)];
-    const Mesh& mesh = scene_->meshes[size_t(instance.mesh)];
     const uint32_t first = part.first_triangle - instance.first_triangle;
-    Bounds bounds;
-    for (uint32_t t = first; t < first + part.index_count / 3; ++t) {
-      for (int c = 0; c < 3; ++c) bounds.add(mesh.positions[mesh.triangles[t][c]]);
-    }
-    part.bounds = bounds.transformed(instance.worldFromObject);
+    part.bounds = bounds_[size_t(instance.mesh)][first / part_triangles].transformed(instance.worldFromObject);
     part.mirrored = glm::determinant(glm::dmat3(instance.worldFromObject)) < 0.0;
   }
 }
 
-void GpuScene::update() {
-  for (size_t m = 0; m < scene_->meshes.size(); ++m) {
-    if (scene_->meshes[m].deforms()) upload_vertices(m);
+void GpuScene::update(const SceneChanges& changes) {
+  if (changes.textures) {
+    materials_ = Materials(*scene_, *context_);
+  } else if (changes.materials) {
+    materials_.update();
   }
-  place_parts();
+  if (!changes.replaced.empty()) {
+    upload_meshes();
+  } else {
+    for (const int mesh : changes.deformed) {
+      upload_vertices(size_t(mesh));
+      measure(size_t(mesh));
+    }
+  }
+  if (changes.listed || !changes.replaced.empty()) list_parts();
+  if (changes.of_shape()) place_parts();
 }
 
 void GpuScene::set_view(const glm::dmat4& worldFromCamera, const std::optional<glm::vec3>& background) {

@@ -49,8 +49,9 @@ class GpuScene {
  public:
   GpuScene(const Scene& scene, const gl::Context& context);
 
-  /// Takes over transforms, lights and deformed vertices from the scene.
-  void update();
+  /// Follows the scene, which has changed so. Vertices are uploaded only of meshes that are others; of all meshes when
+  /// one of them has other triangles.
+  void update(const SceneChanges& changes);
   /// Makes everything relative to a camera's pose. `background`: linear RGB, nothing for a sky.
   void set_view(const glm::dmat4& worldFromCamera, const std::optional<glm::vec3>& background);
   /// Lights cast shadows by these maps from the next set_view on; null: none does. The table must outlive its use.
@@ -83,11 +84,17 @@ class GpuScene {
   size_t bytes() const;
 
  private:
+  void upload_meshes();
   void upload_vertices(size_t mesh);
+  void measure(size_t mesh);
+  void list_parts();
   void place_parts();
+  void make_vertex_array();
 
   const Scene* scene_;
+  const gl::Context* context_;
   Materials materials_;
+  std::vector<std::vector<Bounds>> bounds_;  ///< by mesh, of its parts, in its own frame
   std::vector<Part> parts_;
   std::vector<uint32_t> first_vertex_, first_index_;  ///< per mesh, in the common buffers
   gl::Buffer positions_, attributes_, colors_, indices_, part_records_, instances_, frame_;

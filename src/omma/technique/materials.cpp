@@ -73,9 +73,13 @@ Materials::Materials(const Scene& scene, const gl::Context& context) : scene_(&s
   GLint alignment = 256;
   glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
   block_stride_ = (sizeof(MaterialBlock) + size_t(alignment) - 1) / size_t(alignment) * size_t(alignment);
-  std::vector<std::byte> blocks(block_stride_ * scene.materials.size());
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    const Material& material = scene.materials[i];
+  update();
+}
+
+void Materials::update() {
+  std::vector<std::byte> blocks(block_stride_ * scene_->materials.size());
+  for (size_t i = 0; i < scene_->materials.size(); ++i) {
+    const Material& material = scene_->materials[i];
     const MaterialBlock block{material.base_color, glm::vec4(material.emissive, material.normal_scale),
                               glm::vec4(material.metallic, material.roughness, coverage_cutoff(material), 0.0f)};
     std::memcpy(blocks.data() + i * block_stride_, &block, sizeof block);

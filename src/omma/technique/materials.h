@@ -14,6 +14,8 @@ namespace omma {
 class Materials {
  public:
   Materials(const Scene& scene, const gl::Context& context);
+  /// Takes over the numbers of materials; as many as before, with the textures that they had.
+  void update();
 
   /// Symbols that shaders/shading expects for a material. `labels` is for channels that are not colour: there a blended
   /// material counts as solid where it covers at least half.

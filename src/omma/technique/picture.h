@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "omma/camera/pieces/approximate.h"
@@ -90,5 +91,11 @@ struct TechniqueInfo {
   bool bounds = false;                ///< rasterizes bounding shapes, some of whose fragments are not kept
   std::vector<VariantInfo> variants;  ///< the first is the default; empty: none
 };
+
+/// Every technique, in the order of the registry.
+const std::vector<TechniqueInfo>& techniques();
+
+/// Throws CommandError with the nearest name for an unknown technique or variant.
+void check_technique(std::string_view technique);
 
 }  // namespace omma

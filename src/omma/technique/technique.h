@@ -13,6 +13,7 @@
 #include "omma/technique/gpu_scene.h"
 #include "omma/technique/target.h"
 #include "omma/technique/view.h"
+#include "omma/visibility/scene_index.h"
 
 namespace omma {
 
@@ -20,6 +21,7 @@ namespace omma {
 struct DrawTools {
   const gl::Context& context;
   const GpuScene& scene;
+  const LazySceneIndex& index;  ///< of the same scene
   ProgramCache& programs;
   CameraTextures camera_textures{};
   gl::StageTimer timer{context.software()};
@@ -67,8 +69,8 @@ class Technique {
   /// tools.timer.
   virtual void draw(const View& view, const Target& target) = 0;
 
-  /// The scene has changed: what was derived from it must be derived again.
-  virtual void scene_changed() {}
+  /// The scene has moved or deformed: what was derived from it must be derived again.
+  virtual void scene_changed(const SceneChanges&) {}
 
   /// What the last picture was made of, as a camera in the pieces form; null where there are no pieces.
   virtual const Camera* pieces() const { return nullptr; }

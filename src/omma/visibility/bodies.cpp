@@ -45,68 +45,124 @@ void Body::refit(const Scene& scene) {
   if (!tree.nodes.empty()) bounds = tree.nodes.front().bounds();
 }
 
-Bodies::Bodies(const Scene& scene) : scene_(&scene), moves_(scene.instances.size(), false) { group(); }
+Bodies::Bodies(const Scene& scene) : scene_(&scene) { group(); }
+
+bool Bodies::is_blended(int mesh) const {
+  return scene_->materials[size_t(scene_->meshes[size_t(mesh)].material)].alpha == Material::Alpha::blend;
+}
+
+size_t Bodies::body_of(int mesh) {
+  own_.resize(scene_->meshes.size());
+  std::optional<size_t>& own = own_[size_t(mesh)];
+  if (!own) {
+    own = bodies_.size();
+    bodies_.emplace_back(*scene_, std::vector<int>{mesh});
+  }
+  return *own;
+}
 
 void Bodies::group() {
   std::vector<std::vector<uint32_t>> users(scene_->meshes.size());
-  grouped_at_.clear();
+  instance_of_key_.clear();
   for (uint32_t i = 0; i < scene_->instances.size(); ++i) {
     users[size_t(scene_->instances[i].mesh)].push_back(i);
-    grouped_at_.push_back(scene_->instances[i].worldFromObject);
+    instance_of_key_.emplace(scene_->instances[i].key, i);
   }
   std::vector<std::vector<int>> meshes;  // of the bodies
-  std::vector<Placement> together;
-  placements_.clear();
+  together_.clear();
   for (size_t m = 0; m < users.size(); ++m) {
-    if (users[m].empty() || scene_->meshes[m].triangles.empty()) continue;
-    const Instance& first = scene_->instances[users[m].front()];
-    if (users[m].size() > 1 || moves_[users[m].front()]) {
-      for (const uint32_t instance : users[m]) placements_.push_back({meshes.size(), {instance}});
-      meshes.push_back({int(m)});
-      continue;
-    }
+    if (users[m].size() != 1 || scene_->meshes[m].triangles.empty()) continue;
+    const Instance& instance = scene_->instances[users[m].front()];
+    if (movers_.contains(instance.key)) continue;
     // Blended surfaces are looked for on their own.
-    const auto is_blended = [&](int mesh) {
-      return scene_->materials[size_t(scene_->meshes[size_t(mesh)].material)].alpha == Material::Alpha::blend;
-    };
-    const auto found = std::find_if(together.begin(), together.end(), [&](const Placement& placement) {
-      const Instance& other = scene_->instances[placement.instances.front()];
-      return other.worldFromObject == first.worldFromObject && is_blended(other.mesh) == is_blended(int(m));
+    auto found = std::ranges::find_if(together_, [&](const Together& other) {
+      return other.worldFromBody == instance.worldFromObject && other.blended == is_blended(int(m));
     });
-    if (found == together.end()) {
-      together.push_back({meshes.size(), {users[m].front()}});
-      meshes.push_back({int(m)});
-    } else {
-      found->instances.push_back(users[m].front());
-      meshes[found->body].push_back(int(m));
+    if (found == together_.end()) {
+      together_.push_back({meshes.size(), instance.worldFromObject, is_blended(int(m)), {}});
+      meshes.emplace_back();
+      found = together_.end() - 1;
     }
+    found->keys.push_back(instance.key);
+    meshes[found->body].push_back(int(m));
   }
-  placements_.insert(placements_.end(), together.begin(), together.end());
   bodies_.clear();
-  for (std::vector<int>& of_body : meshes) bodies_.emplace_back(*scene_, std::move(of_body));
-  // Nothing is left of a mesh of which no triangle is finite.
-  std::erase_if(placements_, [&](const Placement& placement) { return bodies_[placement.body].clusters.empty(); });
+  own_.clear();
+  own_.resize(scene_->meshes.size());
+  for (std::vector<int>& of_body : meshes) {
+    if (of_body.size() == 1) own_[size_t(of_body.front())] = bodies_.size();
+    bodies_.emplace_back(*scene_, std::move(of_body));
+  }
+  place();
 }
 
-void Bodies::update() {
+bool Bodies::stands_in(const Together& together, size_t part, uint32_t instance) const {
+  const int mesh = bodies_[together.body].meshes[part];
+  const Instance& there = scene_->instances[instance];
+  return there.mesh == mesh && there.worldFromObject == together.worldFromBody && is_blended(mesh) == together.blended;
+}
+
+bool Bodies::place() {
+  placements_.clear();
+  std::vector<bool> placed(scene_->instances.size(), false);
+  size_t clusters = 0, gone = 0;
+  for (const Together& together : together_) {
+    const Body& body = bodies_[together.body];
+    Placement placement{together.body, {}, together.worldFromBody};
+    size_t left = 0;
+    for (size_t part = 0; part < together.keys.size(); ++part) {
+      const auto found = instance_of_key_.find(together.keys[part]);
+      const bool stands = found != instance_of_key_.end() && stands_in(together, part, found->second);
+      placement.instances.push_back(stands ? found->second : Placement::gone);
+      if (stands) {
+        placed[found->second] = true;
+      } else {
+        ++left;
+        if (found != instance_of_key_.end()) movers_.insert(together.keys[part]);
+        gone += size_t(std::ranges::count(body.part, uint32_t(part)));
+      }
+    }
+    clusters += body.clusters.size();
+    if (left < together.keys.size()) placements_.push_back(std::move(placement));
+  }
+  if (2 * gone > clusters) return false;
+  for (uint32_t i = 0; i < placed.size(); ++i) {
+    const Instance& instance = scene_->instances[i];
+    if (placed[i] || scene_->meshes[size_t(instance.mesh)].triangles.empty()) continue;
+    placements_.push_back({body_of(instance.mesh), {i}, instance.worldFromObject});
+  }
+  // Nothing is left of a mesh of which no triangle is finite.
+  std::erase_if(placements_, [&](const Placement& placement) { return bodies_[placement.body].clusters.empty(); });
+  return true;
+}
+
+void Bodies::update(const SceneChanges& changes) {
+  if (changes.listed) {
+    instance_of_key_.clear();
+    for (uint32_t i = 0; i < scene_->instances.size(); ++i) instance_of_key_.emplace(scene_->instances[i].key, i);
+  }
   bool fell_apart = false;
-  for (const Placement& placement : placements_) {
-    const glm::dmat4& first = scene_->instances[placement.instances.front()].worldFromObject;
-    const bool together = std::all_of(placement.instances.begin(), placement.instances.end(), [&](uint32_t instance) {
-      return scene_->instances[instance].worldFromObject == first;
-    });
-    if (together) continue;
-    fell_apart = true;
-    for (const uint32_t instance : placement.instances) {
-      if (scene_->instances[instance].worldFromObject != grouped_at_[instance]) moves_[instance] = true;
+  for (Body& body : bodies_) {
+    const auto is_in = [&](const std::set<int>& meshes) {
+      return std::ranges::any_of(body.meshes, [&](int mesh) { return meshes.contains(mesh); });
+    };
+    if (is_in(changes.replaced)) {
+      if (body.meshes.size() == 1) {
+        body = Body(*scene_, body.meshes);
+      } else {
+        fell_apart = true;
+      }
+    } else if (is_in(changes.deformed)) {
+      body.refit(*scene_);
     }
   }
-  if (fell_apart) return group();
-  for (Body& body : bodies_) {
-    const bool deforms = std::any_of(body.meshes.begin(), body.meshes.end(),
-                                     [&](int mesh) { return scene_->meshes[size_t(mesh)].deforms(); });
-    if (deforms) body.refit(*scene_);
+  if (fell_apart) {
+    for (const Instance& instance : scene_->instances) {
+      if (changes.replaced.contains(instance.mesh)) movers_.insert(instance.key);
+    }
+    return group();
   }
+  if (!place()) group();
 }
 
 uint32_t Bodies::depth() const {

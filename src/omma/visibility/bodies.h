@@ -4,6 +4,9 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "omma/scene/scene.h"
@@ -27,8 +30,10 @@ struct Body {
 
 /// A body at a place.
 struct Placement {
+  static constexpr uint32_t gone = ~0u;
   size_t body;
-  std::vector<uint32_t> instances;  ///< of the scene, one for each of the body's meshes; all with the same transform
+  std::vector<uint32_t> instances;  ///< of the scene, one for each of the body's meshes; `gone` where it has left
+  glm::dmat4 worldFromBody;
 };
 
 class Bodies {
@@ -36,8 +41,10 @@ class Bodies {
   /// Sorts every mesh. The scene must outlive this object.
   explicit Bodies(const Scene& scene);
 
-  /// Follows deformed vertices. Instances that have left the others of their body get one of their own.
-  void update();
+  /// Follows the scene, which has changed so. An instance that leaves the others of its body leaves a gap there and is
+  /// a body of its own; so is one that comes. Meshes with other triangles are sorted anew, and all that stands together
+  /// when one of them stood there, or when more than half of it has left.
+  void update(const SceneChanges& changes);
 
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<Placement>& placements() const { return placements_; }
@@ -45,12 +52,27 @@ class Bodies {
   size_t bytes() const;
 
  private:
+  /// Instances of several meshes that stood still at one place when it was made.
+  struct Together {
+    size_t body;
+    glm::dmat4 worldFromBody;
+    bool blended;
+    std::vector<uint32_t> keys;  ///< of the instances, one for each of the body's meshes
+  };
+
   void group();
+  /// False where so much has left that it is time to group anew.
+  bool place();
+  bool is_blended(int mesh) const;
+  bool stands_in(const Together& together, size_t part, uint32_t instance) const;
+  size_t body_of(int mesh);
 
   const Scene* scene_;
-  std::vector<glm::dmat4> grouped_at_;  ///< by instance: its transform when bodies were made
-  std::vector<bool> moves_;             ///< by instance: it has left a body
   std::vector<Body> bodies_;
+  std::vector<Together> together_;
+  std::vector<std::optional<size_t>> own_;  ///< by mesh: the body that holds nothing else
+  std::unordered_map<uint32_t, uint32_t> instance_of_key_;
+  std::unordered_set<uint32_t> movers_;  ///< keys of instances that have moved away from others
   std::vector<Placement> placements_;
 };
 

@@ -3,6 +3,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "omma/math/bounds.h"
+
 namespace omma {
 
 /// Around points, which lie where whoever uses it says. A new one holds nothing.
@@ -23,5 +25,14 @@ struct Box {
     return e.x * e.y + e.y * e.z + e.z * e.x;
   }
 };
+
+inline Bounds to_bounds(const Box& box) { return {glm::dvec3(box.min), glm::dvec3(box.max)}; }
+
+/// Rounded outwards, within what single precision holds.
+inline Box to_box(const Bounds& bounds) {
+  constexpr double most = 1e38;
+  const glm::dvec3 room = 1e-6 * glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+  return {glm::vec3(glm::clamp(bounds.min - room, -most, most)), glm::vec3(glm::clamp(bounds.max + room, -most, most))};
+}
 
 }  // namespace omma

@@ -29,7 +29,7 @@ namespace HWY_NAMESPACE {
 template <bool has_origins>
 class BlockFinder {
  public:
-  explicit BlockFinder(const BlockQuery& query) : query_(query), pending_(query.scene->depth()) {}
+  explicit BlockFinder(const BlockQuery& query) : query_(query), pending_(query.scene->index().depth()) {}
 
   /// `origins` is null where rays have none.
   void find(const RayBlock& block, const BlockOrigins* origins, BlockPicture& picture,

@@ -83,7 +83,7 @@ void Finder::each_square(const RaySource& rays, const std::function<void(std::sp
                   found_of(block).picture = picture;
                   found_of(block).layers.clear();
                 });
-    if (scene_.has_blending()) {
+    if (scene_.index().has_blending()) {
       find_blocks(
           blended, some.blocks, some.origins,
           [&](const RayBlock& block, BlockPicture& picture) { picture = found_of(block).picture; },

@@ -29,15 +29,10 @@ struct FoundBlock {
 
 class Finder {
  public:
-  /// Sorts every mesh into clusters. The scene must outlive this object.
-  explicit Finder(const Scene& scene) : scene_(scene) {}
-
-  /// Follows the scene's moved instances and deformed vertices; nothing is sorted again. Call set_view afterwards.
-  void update() { scene_.update(); }
-  /// Makes everything relative to the camera. No ray meets `hidden_object`, but what is behind it.
-  void set_view(const glm::dmat4& worldFromCamera, std::optional<int> hidden_object = std::nullopt) {
-    scene_.set_view(worldFromCamera, hidden_object);
-  }
+  /// What the rays of a camera at this pose meet. No ray meets `hidden_object`, but what is behind it. The index must
+  /// outlive this object, and not be updated meanwhile; several finders may use it at once, on several threads.
+  Finder(const SceneIndex& index, const glm::dmat4& worldFromCamera, std::optional<int> hidden_object = std::nullopt)
+      : scene_(index, worldFromCamera, hidden_object) {}
 
   /// The nearest triangle of every ray, rows from the top: x its id over all instances, y its instance, both
   /// meets_nothing where there is none; y is no_ray where there is no ray. `distances` is empty or as long: metres,
@@ -55,9 +50,6 @@ class Finder {
 
   /// All blended surfaces nearer than `distances` on each ray, nearest first.
   std::vector<std::vector<RayHit>> blended(const RayTree& rays, std::span<const float> distances) const;
-
-  bool has_blending() const { return scene_.has_blending(); }
-  size_t bytes() const { return scene_.bytes(); }
 
  private:
   PlacedScene scene_;

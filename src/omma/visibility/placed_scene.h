@@ -1,5 +1,5 @@
-// The scene as a camera sees it: its bodies relative to the camera, under a tree of their own. Transforms are
-// multiplied in double precision and rounded once.
+// The scene as one camera sees it: its bodies relative to the camera, under a tree of boxes of its own. Transforms are
+// multiplied in double precision and rounded once. Any number of them may stand beside each other over one index.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "omma/scene/scene.h"
-#include "omma/visibility/bodies.h"
+#include "omma/visibility/scene_index.h"
 
 namespace omma {
 
@@ -40,37 +40,29 @@ struct PlacedBody {
 
 class PlacedScene {
  public:
-  /// The scene must outlive this object.
-  explicit PlacedScene(const Scene& scene);
+  /// `hidden_object`, if any, is not there. The index must outlive this object, and not be updated meanwhile.
+  PlacedScene(const SceneIndex& index, const glm::dmat4& worldFromCamera,
+              std::optional<int> hidden_object = std::nullopt);
+  PlacedScene(PlacedScene&&) = default;
+  PlacedScene& operator=(PlacedScene&&) = default;
 
-  /// Follows the scene's moved instances and deformed vertices.
-  void update();
-  /// `hidden_object`, if any, is not there.
-  void set_view(const glm::dmat4& worldFromCamera, std::optional<int> hidden_object = std::nullopt);
-
-  const Scene& scene() const { return *scene_; }
+  const SceneIndex& index() const { return *index_; }
+  const Scene& scene() const { return index_->scene(); }
   /// Over the bodies, in the camera frame, metres. Empty when nothing is there.
   const BoxTree& top() const { return top_; }
-  const PlacedBody& top_frame() const { return top_frame_; }            ///< in which the finder meets `top`
-  std::span<const PlacedBody> bodies() const { return placed_; }        ///< by the leaves of `top`
-  const std::vector<Body>& shapes() const { return bodies_.bodies(); }  ///< that are placed, once each
-  uint32_t depth() const { return top_.depth + bodies_.depth(); }       ///< of nodes, from the root down to the last
-  bool has_blending() const { return has_blending_; }
-  size_t bytes() const;
+  const PlacedBody& top_frame() const { return top_frame_; }      ///< in which the finder meets `top`
+  std::span<const PlacedBody> bodies() const { return placed_; }  ///< by the leaves of `top`
 
  private:
-  void build_top();
   /// Returns the body's box in the camera frame.
   Box place(const Placement& placement, const glm::dmat4& cameraFromWorld, std::optional<int> hidden_object,
             PlacedBody& placed, PlacedPart* parts) const;
 
-  const Scene* scene_;
-  Bodies bodies_;
+  const SceneIndex* index_;
   std::vector<PlacedBody> placed_;
   std::vector<PlacedPart> parts_;
   BoxTree top_;
   PlacedBody top_frame_;
-  bool has_blending_ = false;
 };
 
 }  // namespace omma

@@ -13,7 +13,7 @@ class BoundDrawer {
   virtual ~BoundDrawer() = default;
   /// Surfaces into the bound framebuffer.
   virtual void draw(const View& view, const ExactStage& exact) = 0;
-  virtual void scene_changed() {}
+  virtual void scene_changed(const SceneChanges&) {}
   virtual size_t buffer_bytes() const { return 0; }
 };
 

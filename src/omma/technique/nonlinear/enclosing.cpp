@@ -16,8 +16,8 @@ class EnclosingDrawer : public BoundDrawer {
  public:
   EnclosingDrawer(DrawTools& tools, BoundingShape shape) : tools_(tools), shape_(shape) {}
 
-  void scene_changed() override {
-    if (tiles_) tiles_->scene_changed();
+  void scene_changed(const SceneChanges& changes) override {
+    if (tiles_) tiles_->scene_changed(changes);
   }
   size_t buffer_bytes() const override { return tiles_ ? tiles_->buffer_bytes() : 0; }
 

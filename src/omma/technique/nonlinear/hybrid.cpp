@@ -29,7 +29,7 @@ class HybridDrawer : public BoundDrawer {
         solid_(tools, ReplicaShape::hexagon),
         blended_(tools, ReplicaShape::hexagon) {}
 
-  void scene_changed() override { clusters_.update(); }
+  void scene_changed(const SceneChanges& changes) override { clusters_.update(changes); }
   size_t buffer_bytes() const override {
     return tiles_.bytes() + clusters_.bytes() + straight_.bytes() + solid_.bytes() + blended_.bytes();
   }

@@ -26,7 +26,7 @@ class Nonlinear : public Technique {
       : tools_(tools), exact_(tools), drawer_(std::move(drawer)) {}
   bool multisamples() const override { return true; }
   bool draws_depth() const override { return true; }
-  void scene_changed() override { drawer_->scene_changed(); }
+  void scene_changed(const SceneChanges& changes) override { drawer_->scene_changed(changes); }
   size_t buffer_bytes() const override { return drawer_->buffer_bytes(); }
 
   void draw(const View& view, const Target& target) override {

@@ -8,7 +8,7 @@ class ComputeDrawer : public PieceDrawer {
  public:
   explicit ComputeDrawer(DrawTools& tools) : tools_(tools), clusters_(tools.scene), solid_(tools), blended_(tools) {}
 
-  void scene_changed() override { clusters_.update(); }
+  void scene_changed(const SceneChanges& changes) override { clusters_.update(changes); }
 
   void draw(const View& view, const GpuPieces& pieces) override {
     draw_solid(view, pieces);

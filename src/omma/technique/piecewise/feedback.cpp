@@ -9,8 +9,8 @@ class FeedbackDrawer : public PieceDrawer {
  public:
   explicit FeedbackDrawer(DrawTools& tools) : tools_(tools), clusters_(tools.scene), lists_(tools), blended_(tools) {}
 
-  void scene_changed() override {
-    if (clusters_.update()) lists_.forget();
+  void scene_changed(const SceneChanges& changes) override {
+    if (clusters_.update(changes)) lists_.forget();
   }
   size_t buffer_bytes() const override { return clusters_.bytes() + lists_.bytes() + blended_.bytes(); }
 

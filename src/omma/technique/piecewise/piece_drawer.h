@@ -14,7 +14,7 @@ class PieceDrawer {
   virtual ~PieceDrawer() = default;
   /// Surfaces into the bound framebuffer.
   virtual void draw(const View& view, const GpuPieces& pieces) = 0;
-  virtual void scene_changed() {}
+  virtual void scene_changed(const SceneChanges&) {}
   virtual size_t buffer_bytes() const { return 0; }
 };
 

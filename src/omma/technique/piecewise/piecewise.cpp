@@ -28,7 +28,7 @@ class Piecewise : public Technique {
  public:
   Piecewise(DrawTools& tools, std::unique_ptr<PieceDrawer> drawer) : tools_(tools), drawer_(std::move(drawer)) {}
   bool multisamples() const override { return true; }
-  void scene_changed() override { drawer_->scene_changed(); }
+  void scene_changed(const SceneChanges& changes) override { drawer_->scene_changed(changes); }
   size_t buffer_bytes() const override { return pieces_.bytes() + drawer_->buffer_bytes(); }
 
   void draw(const View& view, const Target& target) override {

@@ -14,7 +14,7 @@ class TessellatorDrawer : public PieceDrawer {
  public:
   explicit TessellatorDrawer(DrawTools& tools) : tools_(tools), clusters_(tools.scene), blended_(tools) {}
 
-  void scene_changed() override { clusters_.update(); }
+  void scene_changed(const SceneChanges& changes) override { clusters_.update(changes); }
   size_t buffer_bytes() const override { return clusters_.bytes() + blended_.bytes(); }
 
   void draw(const View& view, const GpuPieces& pieces) override {

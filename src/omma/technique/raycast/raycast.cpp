@@ -19,7 +19,7 @@ class Raycast : public Technique {
   size_t shifts_at_once(ImageSize size) const override {
     return trees_.has_blending() ? 1 : resolver_.samples_at_once(size);
   }
-  void scene_changed() override { trees_.update(); }
+  void scene_changed(const SceneChanges& changes) override { trees_.update(changes); }
   size_t buffer_bytes() const override { return resolver_.bytes(); }
 
   void draw(const View& view, const Target& target) override {

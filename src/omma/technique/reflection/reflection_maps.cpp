@@ -61,9 +61,9 @@ void ReflectionMaps::draw(const Key& key) {
   glGenerateTextureMipmap(table_.maps.id());
 }
 
-void ReflectionMaps::scene_changed() {
+void ReflectionMaps::scene_changed(const SceneChanges& changes) {
   key_.reset();
-  if (technique_) technique_->scene_changed();
+  if (technique_) technique_->scene_changed(changes);
 }
 
 size_t ReflectionMaps::bytes() const {

@@ -19,7 +19,7 @@ class ReflectionMaps {
   /// where the driver has no such maps.
   void use(const RenderOptions& options);
   /// The object or what surrounds it has moved.
-  void scene_changed();
+  void scene_changed(const SceneChanges& changes);
   size_t bytes() const;
 
  private:

@@ -46,12 +46,14 @@ std::vector<glm::vec4> cluster_spheres(const Mesh& mesh) {
 
 }  // namespace
 
-SceneClusters::SceneClusters(const GpuScene& scene) : scene_(scene), spheres_(scene.scene().meshes.size()) { update(); }
+SceneClusters::SceneClusters(const GpuScene& scene) : scene_(scene), spheres_(scene.scene().meshes.size()) {
+  update({});
+}
 
-bool SceneClusters::update() {
+bool SceneClusters::update(const SceneChanges& changes) {
   const Scene& scene = scene_.scene();
   for (size_t m = 0; m < scene.meshes.size(); ++m) {
-    if (spheres_[m].empty() || scene.meshes[m].deforms()) spheres_[m] = cluster_spheres(scene.meshes[m]);
+    if (spheres_[m].empty() || changes.deformed.contains(int(m))) spheres_[m] = cluster_spheres(scene.meshes[m]);
   }
 
   std::vector<PartRecord> parts;

@@ -33,7 +33,7 @@ class SceneClusters {
 
   explicit SceneClusters(const GpuScene& scene);
   /// Takes over deformed vertices and mirrored transforms. False when the groups stay as they were.
-  bool update();
+  bool update(const SceneChanges& changes);
 
   /// The vertices and, at unit 19, the parts as buffer textures.
   void bind() const;

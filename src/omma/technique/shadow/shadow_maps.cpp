@@ -51,9 +51,9 @@ Technique& ShadowMaps::technique_for(const Camera& camera) {
   return *technique;
 }
 
-void ShadowMaps::scene_changed() {
+void ShadowMaps::scene_changed(const SceneChanges& changes) {
   kind_ = Shadows::off;
-  for (auto& [name, technique] : techniques_) technique->scene_changed();
+  for (auto& [name, technique] : techniques_) technique->scene_changed(changes);
 }
 
 size_t ShadowMaps::bytes() const {

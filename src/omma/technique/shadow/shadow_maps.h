@@ -18,7 +18,7 @@ class ShadowMaps {
   /// Leaves the scene with a light's view. Throws MachineError where the driver has no such maps.
   void use(Shadows kind, int size);
   /// Lights or what they shine on have moved.
-  void scene_changed();
+  void scene_changed(const SceneChanges& changes);
   size_t bytes() const;
 
  private:

@@ -36,7 +36,7 @@ class Subdivision : public Technique {
   Subdivision(DrawTools& tools, SplitForm form)
       : tools_(tools), form_(form), pixels_(tools), splitter_(tools, pixels_, form), sorted_(tools, pixels_, form) {}
   bool multisamples() const override { return true; }
-  void scene_changed() override { splitter_.scene_changed(); }
+  void scene_changed(const SceneChanges&) override { splitter_.scene_changed(); }
   size_t buffer_bytes() const override { return pixels_.bytes() + splitter_.bytes() + sorted_.bytes(); }
 
   void draw(const View& view, const Target& target) override {

@@ -14,7 +14,7 @@ class GpuVisibility : public Technique {
   size_t shifts_at_once(ImageSize size) const override {
     return finder_.has_blending() ? 1 : resolver_.samples_at_once(size);
   }
-  void scene_changed() override {
+  void scene_changed(const SceneChanges&) override {
     tools_.timer.mark("refit");
     finder_.update();
   }

@@ -43,8 +43,8 @@ std::vector<Box> cluster_boxes(const Body& body) {
 
 }  // namespace
 
-GpuBodies::GpuBodies(const GpuScene& gpu_scene, const PlacedScene& scene, const gl::Limits& limits)
-    : gpu_scene_(gpu_scene), scene_(scene), most_texels_(size_t(limits.buffer_texels)) {
+GpuBodies::GpuBodies(const GpuScene& gpu_scene, const SceneIndex& index, const gl::Limits& limits)
+    : gpu_scene_(gpu_scene), index_(index), most_texels_(size_t(limits.buffer_texels)) {
   upload_alphas();
   update();
 }
@@ -56,7 +56,7 @@ void GpuBodies::check(size_t texels, const char* of_what) const {
 }
 
 void GpuBodies::upload_alphas() {
-  const Scene& scene = scene_.scene();
+  const Scene& scene = index_.scene();
   std::vector<bool> used(scene.textures.size(), false);
   for (const Material& material : scene.materials) {
     has_holes_ |= material.alpha != Material::Alpha::opaque;
@@ -78,7 +78,7 @@ void GpuBodies::update() {
   std::vector<BoxRecord> groups, clusters;
   std::vector<uint32_t> triangles;
   first_group_.clear();
-  for (const Body& body : scene_.shapes()) {
+  for (const Body& body : index_.bodies().bodies()) {
     first_group_.push_back(uint32_t(groups.size()));
     const std::vector<Box> boxes = cluster_boxes(body);
     const auto record = [](const Box& box, size_t first, size_t count) {
@@ -107,15 +107,15 @@ void GpuBodies::update() {
   triangles_.write(std::span<const uint32_t>(triangles));
 }
 
-void GpuBodies::place() {
-  const Scene& scene = scene_.scene();
+void GpuBodies::place(const PlacedScene& seen) {
+  const Scene& scene = index_.scene();
   std::vector<PlacementRecord> placements;
   std::vector<PartRecord> parts;
   std::vector<glm::uvec2> placed_groups;
-  for (const PlacedBody& placed : scene_.bodies()) {
+  for (const PlacedBody& placed : seen.bodies()) {
     PlacementRecord record{{}, placed.scale, placed.pad, uint32_t(parts.size()), placed.blended ? 1u : 0u};
     for (int axis = 0; axis < 3; ++axis) record.cameraFromBody[axis] = {placed.columns[axis], placed.origin[axis]};
-    const auto shape = size_t(placed.body - scene_.shapes().data());
+    const auto shape = size_t(placed.body - index_.bodies().bodies().data());
     for (uint32_t group = first_group_[shape]; group < first_group_[shape + 1]; ++group) {
       placed_groups.emplace_back(placements.size(), group);
     }
@@ -135,6 +135,11 @@ void GpuBodies::place() {
                                                        0,
                                                        0,
                                                        0});
+      if (part.hidden) {  // whatever it covers is too little
+        made.alpha = uint32_t(Material::Alpha::mask);
+        made.cutoff = std::numeric_limits<float>::infinity();
+        has_holes_ = true;
+      }
       if (material.base_color_texture < 0 || part.mesh->uvs.empty()) continue;
       const Texture& texture = scene.textures[size_t(material.base_color_texture)];
       made.first_alpha = first_alpha_[size_t(material.base_color_texture)];

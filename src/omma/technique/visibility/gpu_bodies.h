@@ -13,12 +13,12 @@ namespace omma {
 class GpuBodies {
  public:
   /// Both must outlive this object. Throws MachineError when the driver's buffers are too small.
-  GpuBodies(const GpuScene& gpu_scene, const PlacedScene& scene, const gl::Limits& limits);
+  GpuBodies(const GpuScene& gpu_scene, const SceneIndex& index, const gl::Limits& limits);
 
   /// Takes over bodies whose vertices have moved. Call place afterwards.
   void update();
-  /// Takes over where the scene's bodies lie, seen from its view.
-  void place();
+  /// Takes over where the scene's bodies lie, seen from one view.
+  void place(const PlacedScene& seen);
 
   /// Texture units 5 to 7, 9, 20 to 23, 25 and 26; triangles' numbers on 24.
   void bind() const;
@@ -44,7 +44,7 @@ class GpuBodies {
   void check(size_t texels, const char* of_what) const;
 
   const GpuScene& gpu_scene_;
-  const PlacedScene& scene_;
+  const SceneIndex& index_;
   size_t most_texels_;
   std::vector<uint32_t> first_group_;  ///< of each of the scene's shapes, and the number of all
   std::vector<uint32_t> first_alpha_;  ///< of each texture

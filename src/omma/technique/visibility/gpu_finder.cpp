@@ -59,8 +59,8 @@ uint32_t instance_of(const Scene& scene, uint32_t triangle) {
 
 GpuFinder::GpuFinder(DrawTools& tools, uint32_t most_entries)
     : tools_(tools),
-      scene_(tools.scene.scene()),
-      bodies_(tools.scene, scene_, tools.context.limits()),
+      index_(tools.index.get()),
+      bodies_(tools.scene, index_, tools.context.limits()),
       most_capacity_(
           uint32_t(std::min({size_t(tools.context.limits().buffer_texels),
                              tools.context.limits().storage_bytes / sizeof(glm::uvec4), size_t(most_entries)}))),
@@ -78,15 +78,9 @@ gl::Defines GpuFinder::defines() const {
   return defines;
 }
 
-void GpuFinder::update() {
-  scene_.update();
-  bodies_.update();
-}
+void GpuFinder::update() { bodies_.update(); }
 
-void GpuFinder::set_view(const glm::dmat4& worldFromCamera) {
-  scene_.set_view(worldFromCamera);
-  bodies_.place();
-}
+void GpuFinder::set_view(const glm::dmat4& worldFromCamera) { bodies_.place(PlacedScene(index_, worldFromCamera)); }
 
 void GpuFinder::reserve_lists(uint32_t capacity) {
   capacity_ = capacity;
@@ -277,7 +271,7 @@ VisibleTriangles GpuFinder::nearest(const GpuRays& rays, Solid solid) {
       // An inverse distance of 0 is nothing.
       const uint32_t id = !wide ? found[ray] : found[2 * ray + 1] == 0 ? VisibleTriangles::nothing : ~found[2 * ray];
       if (id != last.x) {
-        last = {id, id == VisibleTriangles::nothing ? id : instance_of(scene_.scene(), id)};
+        last = {id, id == VisibleTriangles::nothing ? id : instance_of(index_.scene(), id)};
       }
       visible.hits[pixel] = last;
     });
@@ -301,7 +295,7 @@ std::vector<std::vector<RayHit>> GpuFinder::blended(const GpuRays& rays) {
     }
     for (const glm::uvec4& layer : read<glm::uvec4>(layers_, counts[layer_counter])) {
       found[rays.pixel_of(layer.x)].push_back(
-          {layer.y, instance_of(scene_.scene(), layer.y), 1.0f / std::bit_cast<float>(layer.z)});
+          {layer.y, instance_of(index_.scene(), layer.y), 1.0f / std::bit_cast<float>(layer.z)});
     }
     first = pairs.end;
   }
@@ -314,7 +308,7 @@ std::vector<std::vector<RayHit>> GpuFinder::blended(const GpuRays& rays) {
 }
 
 size_t GpuFinder::bytes() const {
-  return bodies_.bytes() + scene_.bytes() + lists_[0].bytes() + lists_[1].bytes() + counts_.bytes() + seen_.bytes() +
+  return bodies_.bytes() + index_.bytes() + lists_[0].bytes() + lists_[1].bytes() + counts_.bytes() + seen_.bytes() +
          farthest_.bytes() + batches_.bytes() + ids_.bytes() + steps_.bytes() + layers_.bytes();
 }
 

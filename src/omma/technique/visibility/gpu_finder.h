@@ -30,7 +30,7 @@ class GpuFinder {
   /// All blended surfaces before what `nearest` has found last, with the same rays, nearest first.
   std::vector<std::vector<RayHit>> blended(const GpuRays& rays);
 
-  bool has_blending() const { return scene_.has_blending(); }
+  bool has_blending() const { return index_.has_blending(); }
   size_t bytes() const;
 
  private:
@@ -59,7 +59,7 @@ class GpuFinder {
   Pairs pairs_from(const GpuRays& rays, uint32_t first) const;
 
   DrawTools& tools_;
-  PlacedScene scene_;
+  const SceneIndex& index_;
   GpuBodies bodies_;
   uint32_t capacity_ = 0, most_capacity_;
   uint32_t portions_ = 1;  ///< of all pairs, one after another

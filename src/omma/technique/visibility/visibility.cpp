@@ -14,21 +14,17 @@ RayTree make_tree(const Camera& camera, const PixelRect& tile, const glm::dvec2&
 
 class Visibility : public Technique {
  public:
-  explicit Visibility(DrawTools& tools) : tools_(tools), finder_(tools.scene.scene()), resolver_(tools) {}
+  explicit Visibility(DrawTools& tools) : tools_(tools), index_(tools.index.get()), resolver_(tools) {}
   bool multisamples() const override { return false; }
   size_t shifts_at_once(ImageSize size) const override {
-    return finder_.has_blending() ? 1 : resolver_.samples_at_once(size);
-  }
-  void scene_changed() override {
-    tools_.timer.mark("refit");
-    finder_.update();
+    return index_.has_blending() ? 1 : resolver_.samples_at_once(size);
   }
 
   void draw(const View& view, const Target& target) override {
     tools_.timer.mark("find");
-    finder_.set_view(view.worldFromCamera);
+    const Finder finder(index_, view.worldFromCamera);
     const size_t pixels = size_t(view.size().width) * size_t(view.size().height);
-    const bool layered = !view.labels() && finder_.has_blending();
+    const bool layered = !view.labels() && index_.has_blending();
     std::vector<float> distances(layered ? pixels : 0);
     resolver_.begin();
     for (const glm::dvec2& shift : view.all_shifts()) {
@@ -37,7 +33,7 @@ class Visibility : public Technique {
       tools_.timer.mark("find");
       visible_.size = view.size();
       visible_.hits.resize(pixels);
-      finder_.nearest(rays, view.labels() ? Solid::labels : Solid::opaque, visible_.hits, distances);
+      finder.nearest(rays, view.labels() ? Solid::labels : Solid::opaque, visible_.hits, distances);
       resolver_.add(visible_);
     }
 
@@ -45,19 +41,19 @@ class Visibility : public Technique {
     resolver_.draw(view, target);
     if (layered) {
       tools_.timer.mark("blend");
-      resolver_.draw_layers(view, finder_.blended(rays_.get(view, view.shift, make_tree), distances));
+      resolver_.draw_layers(view, finder.blended(rays_.get(view, view.shift, make_tree), distances));
     }
   }
 
   size_t buffer_bytes() const override {
-    size_t sum = finder_.bytes() + resolver_.bytes();
+    size_t sum = index_.bytes() + resolver_.bytes();
     rays_.each([&](const RayTree& rays) { sum += rays.bytes(); });
     return sum;
   }
 
  private:
   DrawTools& tools_;
-  Finder finder_;
+  const SceneIndex& index_;
   Resolver resolver_;
   PassCache<RayTree> rays_;
   VisibleTriangles visible_;  ///< of the sample that is being found

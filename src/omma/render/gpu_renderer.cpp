@@ -1,4 +1,4 @@
-#include "omma/technique/gpu_renderer.h"
+#include "omma/render/gpu_renderer.h"
 
 #include <algorithm>
 #include <bit>
@@ -65,38 +65,30 @@ GpuRenderer::Passes::Passes(int wanted, int most_driver_samples, size_t shifts_a
   at_once = std::min(shifts.size(), shifts_at_once);
 }
 
-GpuRenderer::GpuRenderer() {
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glEnable(GL_DEPTH_CLAMP);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-}
+GpuRenderer::GpuRenderer(GlDevice& device, const LazySceneIndex& index)
+    : device_(device),
+      gpu_scene_(index.scene(), device.context),
+      tools_{device.context, gpu_scene_, index, device.programs},
+      shadow_maps_(std::make_unique<ShadowMaps>(tools_, gpu_scene_)),
+      reflection_maps_(std::make_unique<ReflectionMaps>(tools_, gpu_scene_)) {}
 
-// Objects are deleted in the context that is current, which may be another renderer's.
-GpuRenderer::~GpuRenderer() { context_.make_current(); }
-
-void GpuRenderer::load(const Scene& scene) {
-  context_.make_current();
-  techniques_.clear();
-  shadow_maps_.reset();
-  reflection_maps_.reset();
-  tools_.reset();
-  gpu_scene_ = std::make_unique<GpuScene>(scene, context_);
-  tools_ = std::unique_ptr<DrawTools>(new DrawTools{context_, *gpu_scene_, programs_});
-  shadow_maps_ = std::make_unique<ShadowMaps>(*tools_, *gpu_scene_);
-  reflection_maps_ = std::make_unique<ReflectionMaps>(*tools_, *gpu_scene_);
-}
-
-void GpuRenderer::update() {
-  context_.make_current();
-  gpu_scene_->update();
-  for (auto& [name, technique] : techniques_) technique->scene_changed();
-  shadow_maps_->scene_changed();
-  reflection_maps_->scene_changed();
+void GpuRenderer::update(const SceneChanges& changes) {
+  gpu_scene_.update(changes);
+  if (changes.listed || !changes.replaced.empty()) {
+    // Techniques know the scene's parts by their numbers.
+    techniques_.clear();
+    shadow_maps_ = std::make_unique<ShadowMaps>(tools_, gpu_scene_);
+    reflection_maps_ = std::make_unique<ReflectionMaps>(tools_, gpu_scene_);
+    return;
+  }
+  for (auto& [name, technique] : techniques_) technique->scene_changed(changes);
+  shadow_maps_->scene_changed(changes);
+  reflection_maps_->scene_changed(changes);
 }
 
 Technique& GpuRenderer::technique_for(const ChosenTechnique& chosen) {
   std::unique_ptr<Technique>& technique = techniques_[chosen.name()];
-  if (!technique) technique = chosen.entry->make(*tools_, chosen.variant);
+  if (!technique) technique = chosen.entry->make(tools_, chosen.variant);
   return *technique;
 }
 
@@ -106,10 +98,10 @@ const Target& GpuRenderer::target_for(ImageSize size, std::span<const Channel> o
 }
 
 double GpuRenderer::timed(const std::function<void()>& draw) {
-  tools_->timer.finish();
+  tools_.timer.finish();
   draw();
   double sum = 0.0;
-  for (const auto& [stage, ms] : tools_->timer.finish()) sum += ms;
+  for (const auto& [stage, ms] : tools_.timer.finish()) sum += ms;
   return sum;
 }
 
@@ -131,7 +123,7 @@ Image GpuRenderer::draw_color(Technique& technique, View view, const Passes& pas
   };
   if (passes.count() == 1) {
     draw_pass(shifts);
-    tools_->timer.mark("read back");
+    tools_.timer.mark("read back");
     return read_back(picture.image(Channel::color), Channel::color, view.size());
   }
   // Half floats hold a pass, but not the sum of a thousand.
@@ -140,22 +132,22 @@ Image GpuRenderer::draw_color(Technique& technique, View view, const Passes& pas
   glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, total.id(), 0);
   const GLfloat zero[4] = {0, 0, 0, 0};
   glClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 0, zero);
-  const gl::Program& add = tools_->programs.get(
+  const gl::Program& add = tools_.programs.get(
       {{GL_VERTEX_SHADER, "common/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "common/accumulate.frag"}}, {});
   for (size_t first = 0; first < shifts.size(); first += passes.at_once) {
     const auto of_pass = shifts.subspan(first, std::min(passes.at_once, shifts.size() - first));
     draw_pass(of_pass);
-    tools_->timer.mark("accumulate");
+    tools_.timer.mark("accumulate");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     glBindSampler(0, 0);
     picture.image(Channel::color).bind(0);
     add.set("weight", float(of_pass.size()) / float(shifts.size()));
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
-    tools_->draw_fullscreen(add);
+    tools_.draw_fullscreen(add);
     glDisable(GL_BLEND);
   }
-  tools_->timer.mark("read back");
+  tools_.timer.mark("read back");
   return read_back(total, Channel::color, view.size());
 }
 
@@ -166,7 +158,7 @@ void GpuRenderer::draw_piece_borders(const Technique& technique, const View& vie
   }
   glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
   glViewport(0, 0, view.size().width, view.size().height);
-  tools_->draw_piece_borders(view, *pieces);
+  tools_.draw_piece_borders(view, *pieces);
 }
 
 void GpuRenderer::draw_channels(Technique& technique, View view, std::map<Channel, Image>& pictures) {
@@ -178,7 +170,7 @@ void GpuRenderer::draw_channels(Technique& technique, View view, std::map<Channe
   view.outputs = outputs;
   const Target& picture = target_for(view.size(), outputs);
   technique.draw(view, picture);
-  tools_->timer.mark("read back");
+  tools_.timer.mark("read back");
   for (Channel channel : outputs) {
     paste(read_back(picture.image(channel), channel, view.size()), view.tile, pictures.at(channel));
   }
@@ -188,23 +180,22 @@ std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dm
                                              std::span<const Channel> wanted, const RenderOptions& options,
                                              const ChosenTechnique& chosen, RenderStats& stats) {
   const std::vector<Effect> effects = effects_of(options);
-  context_.make_current();
-  const gl::Limits& limits = context_.limits();
+  const gl::Limits& limits = device_.context.limits();
   Technique& technique = technique_for(chosen);
   const double shadow_ms = timed([&] { shadow_maps_->use(options.shadows, options.shadow_size); });
   const double reflection_ms = timed([&] { reflection_maps_->use(options); });
-  gpu_scene_->set_view(worldFromCamera, options.background);
+  gpu_scene_.set_view(worldFromCamera, options.background);
 
   const int most = std::min(limits.texture_size, limits.viewport_size);
   const int side = options.tile > 0 ? std::min(options.tile, most) : std::min(most, preferred_tile);
   const std::vector<PixelRect> tiles = tiles_of(camera.size(), side);
   const ImageSize largest{std::min(side, camera.size().width), std::min(side, camera.size().height)};
   const Passes passes(options.samples, technique.multisamples() ? limits.samples : 1, technique.shifts_at_once(largest),
-                      sample_places_);
+                      device_.sample_places);
 
   std::map<Channel, Image> pictures;
   for (Channel channel : wanted) pictures.emplace(channel, make_image(channel, camera.size()));
-  tools_->counters.finish();
+  tools_.counters.finish();
   BoundFragments bound_fragments;
   for (const PixelRect& tile : tiles) {
     View view{.camera = camera, .worldFromCamera = worldFromCamera, .tile = tile};
@@ -221,13 +212,13 @@ std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dm
     }
     draw_channels(technique, view, pictures);
   }
-  const gl::Counts counts = tools_->counters.finish();
-  auto stages = tools_->timer.finish();
-  stats.renderer = context_.renderer();
+  const gl::Counts counts = tools_.counters.finish();
+  auto stages = tools_.timer.finish();
+  stats.renderer = device_.context.renderer();
   stats.triangles_drawn = size_t(counts.primitives);
   stats.fragments_shaded = counts.fragments;
   stats.samples_kept = counts.samples;
-  stats.buffer_bytes = gpu_scene_->bytes() + target_.bytes() + tools_->multisample_target.bytes() +
+  stats.buffer_bytes = gpu_scene_.bytes() + target_.bytes() + tools_.multisample_target.bytes() +
                        technique.buffer_bytes() + shadow_maps_->bytes() + reflection_maps_->bytes();
   stats.tiles = int(tiles.size());
   stats.passes = pictures.contains(Channel::color) ? int(passes.count()) : 0;

@@ -1,4 +1,4 @@
-#include "omma/technique/probe/probe_file.h"
+#include "omma/probe/probe_file.h"
 
 #include <fmt/core.h>
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "omma/probe/probe.h"
 #include "omma/scene/scene.h"
-#include "omma/technique/probe/probe.h"
 
 namespace omma {
 

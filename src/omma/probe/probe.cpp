@@ -1,4 +1,4 @@
-#include "omma/technique/probe/probe.h"
+#include "omma/probe/probe.h"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -37,8 +37,8 @@ void check_probe_point(const ProbePoint& point) {
   }
 }
 
-Prober::Prober(Renderer& renderer, const ProbeOptions& options)
-    : renderer_(renderer),
+Prober::Prober(const PreparedScene& scene, const ProbeOptions& options)
+    : scene_(scene),
       options_(options),
       cosine_sphere_(make_camera("orthographic_fisheye:fov_deg=180", checked_size(options.size))),
       lambert_(make_camera("equisolid:fov_deg=180", checked_size(options.size))),
@@ -60,7 +60,7 @@ glm::dmat4 Prober::pose(const ProbePoint& point) const {
 
 void Prober::look_cosine_weighted(const ProbePoint& point, ProbeResult& result) {
   static constexpr Channel wanted[] = {Channel::color, Channel::distance};
-  const auto pictures = renderer_.render(cosine_sphere_, pose(point), wanted, options_.render);
+  const auto pictures = scene_.render(cosine_sphere_, pose(point), wanted, options_.render);
   const auto& color = std::get<FloatImage>(pictures.at(Channel::color));
   const auto& distance = std::get<FloatImage>(pictures.at(Channel::distance));
   const std::vector<bool>& valid = in_cosine_sphere_;
@@ -80,7 +80,7 @@ void Prober::look_cosine_weighted(const ProbePoint& point, ProbeResult& result) 
 
 void Prober::look_unweighted(const ProbePoint& point, ProbeResult& result) {
   static constexpr Channel wanted[] = {Channel::distance};
-  const auto pictures = renderer_.render(lambert_, pose(point), wanted, options_.render);
+  const auto pictures = scene_.render(lambert_, pose(point), wanted, options_.render);
   const auto& distance = std::get<FloatImage>(pictures.at(Channel::distance));
   const std::vector<bool>& valid = in_lambert_;
   size_t pixels = 0, open = 0;

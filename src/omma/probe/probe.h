@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "omma/camera/camera.h"
-#include "omma/technique/renderer.h"
+#include "omma/render/prepared_scene.h"
 
 namespace omma {
 
@@ -37,8 +37,8 @@ void check_probe_point(const ProbePoint& point);
 
 class Prober {
  public:
-  /// The renderer has a scene loaded. Throws CommandError for options out of range.
-  Prober(Renderer& renderer, const ProbeOptions& options);
+  /// The scene must outlive this object. Throws CommandError for options out of range.
+  Prober(const PreparedScene& scene, const ProbeOptions& options);
 
   /// Occlusion, sky and irradiance. A list is done faster by one of the two for all points, then the other: techniques
   /// keep what they know of a camera while it stays the same.
@@ -48,7 +48,7 @@ class Prober {
  private:
   glm::dmat4 pose(const ProbePoint& point) const;
 
-  Renderer& renderer_;
+  const PreparedScene& scene_;
   ProbeOptions options_;
   Camera cosine_sphere_, lambert_;
   std::vector<bool> in_cosine_sphere_, in_lambert_;  ///< which pixels have a ray

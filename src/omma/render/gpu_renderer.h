@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "omma/render/device_parts.h"
 #include "omma/technique/reflection/reflection_maps.h"
 #include "omma/technique/registry.h"
 #include "omma/technique/shadow/shadow_maps.h"
@@ -17,19 +18,16 @@ namespace omma {
 
 class GpuRenderer {
  public:
-  /// Opens a GL context of its own. Throws MachineError when there is none to be had.
-  GpuRenderer();
-  ~GpuRenderer();
+  /// Uploads the scene of the index, which must outlive this object, as the device must. The device's context is
+  /// current here, in every other call, and when this object goes.
+  GpuRenderer(GlDevice& device, const LazySceneIndex& index);
   GpuRenderer(const GpuRenderer&) = delete;
   GpuRenderer& operator=(const GpuRenderer&) = delete;
 
-  bool is_software() const { return context_.software(); }
+  /// The scene has changed so, and the index with it.
+  void update(const SceneChanges& changes);
 
-  /// Uploads the scene, which must outlive this object or the next call.
-  void load(const Scene& scene);
-  void update();
-
-  /// As Renderer::render, of a scene that is loaded; `options` have been checked.
+  /// As PreparedScene::render; `options` have been checked.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const RenderOptions& options,
                                   const ChosenTechnique& chosen, RenderStats& stats);
@@ -45,11 +43,9 @@ class GpuRenderer {
   void draw_piece_borders(const Technique& technique, const View& view, const Target& picture);
   void draw_channels(Technique& technique, View view, std::map<Channel, Image>& pictures);
 
-  gl::Context context_;
-  ProgramCache programs_;  ///< of all scenes: compiling takes longer than drawing
-  SamplePlaces sample_places_;
-  std::unique_ptr<GpuScene> gpu_scene_;
-  std::unique_ptr<DrawTools> tools_;
+  GlDevice& device_;
+  GpuScene gpu_scene_;
+  DrawTools tools_;
   std::map<std::string, std::unique_ptr<Technique>> techniques_;
   std::unique_ptr<ShadowMaps> shadow_maps_;
   std::unique_ptr<ReflectionMaps> reflection_maps_;
