@@ -12,8 +12,8 @@
 namespace omma::tool {
 namespace {
 
-Output parse_output(const std::string& text) {
-  Output output{text};
+OutputFile parse_output(const std::string& text) {
+  OutputFile output{text};
   const size_t colon = text.rfind(':');
   // A colon that is followed by a dot or a slash belongs to the file's name.
   if (colon != std::string::npos && text.find_first_of("./", colon) == std::string::npos) {
@@ -27,12 +27,12 @@ Output parse_output(const std::string& text) {
 
 }  // namespace
 
-bool Output::has_pattern() const { return has_number_pattern(path); }
+bool OutputFile::has_pattern() const { return has_number_pattern(path); }
 
-std::filesystem::path Output::path_of(int frame) const { return numbered_name(path, frame); }
+std::filesystem::path OutputFile::path_of(int frame) const { return numbered_name(path, frame); }
 
-std::vector<Output> parse_outputs(const std::vector<std::string>& texts) {
-  std::vector<Output> outputs;
+std::vector<OutputFile> parse_outputs(const std::vector<std::string>& texts) {
+  std::vector<OutputFile> outputs;
   std::set<std::filesystem::path> paths;
   for (const std::string& text : texts) {
     outputs.push_back(parse_output(text));

@@ -12,7 +12,7 @@
 
 namespace omma::tool {
 
-struct Output {
+struct OutputFile {
   std::string path;  ///< may hold one pattern such as %04d that stands for the frame's number
   Channel channel = Channel::color;
 
@@ -22,7 +22,7 @@ struct Output {
 
 /// From the texts of -o. Throws CommandError for an unknown channel or format, a format that cannot hold the channel, a
 /// folder that is missing, a file named twice, a pattern that is none.
-std::vector<Output> parse_outputs(const std::vector<std::string>& texts);
+std::vector<OutputFile> parse_outputs(const std::vector<std::string>& texts);
 
 /// Where the picture of an equirectangular camera lies within the whole panorama. Nothing for other cameras, and for a
 /// picture that reaches beyond the poles or the seam behind the camera.

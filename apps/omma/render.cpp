@@ -86,7 +86,7 @@ class Job {
         overwrite_(options.overwrite) {
     if (stats_path_) require_writable(*stats_path_);
     require_patterns(options.view.pose.has_value());
-    for (const Output& output : outputs_) {
+    for (const OutputFile& output : outputs_) {
       if (std::find(channels_.begin(), channels_.end(), output.channel) == channels_.end()) {
         channels_.push_back(output.channel);
       }
@@ -142,11 +142,11 @@ class Job {
   }
 
   bool numbered() const {
-    return std::all_of(outputs_.begin(), outputs_.end(), [](const Output& output) { return output.has_pattern(); });
+    return std::all_of(outputs_.begin(), outputs_.end(), [](const OutputFile& output) { return output.has_pattern(); });
   }
 
   void require_patterns(bool has_pose_file) const {
-    for (const Output& output : outputs_) {
+    for (const OutputFile& output : outputs_) {
       if (view_.is_sequence() && !output.has_pattern()) {
         const fs::path path(output.path);
         throw CommandError("-o {}: {} pictures cannot go to one file; put their number into the name: {}_%04d{}",
@@ -163,13 +163,14 @@ class Job {
   std::vector<Frame> missing_frames() const {
     if (!numbered()) return view_.frames();
     std::set<fs::path> folders;
-    for (const Output& output : outputs_) folders.insert(fs::absolute(output.path).parent_path());
+    for (const OutputFile& output : outputs_) folders.insert(fs::absolute(output.path).parent_path());
     for (const fs::path& folder : folders) remove_abandoned(folder);
     if (overwrite_) return view_.frames();
     std::vector<Frame> missing;
     for (const Frame& frame : view_.frames()) {
-      const bool there = std::all_of(outputs_.begin(), outputs_.end(),
-                                     [&](const Output& output) { return fs::exists(output.path_of(frame.number)); });
+      const bool there = std::all_of(outputs_.begin(), outputs_.end(), [&](const OutputFile& output) {
+        return fs::exists(output.path_of(frame.number));
+      });
       if (!there) missing.push_back(frame);
     }
     return missing;
@@ -232,6 +233,7 @@ class Job {
   struct DrawnFrame {
     FrameStats stats;
     std::map<Channel, Image> images;
+    ByteImage color;  ///< where no file holds more than that
     std::optional<PanoramaPlace> panorama;
   };
 
@@ -241,17 +243,39 @@ class Job {
     const Camera camera = camera_of(frame);
     const auto begin = std::chrono::steady_clock::now();
     const glm::dmat4 worldFromCamera = view_.worldFromCamera(scene.scene(), frame);
-    drawn.images = scene.render(camera, worldFromCamera, channels_, render_options_, &drawn.stats.render);
+    Shot shot{camera, worldFromCamera, {}};
+    for (const Channel channel : channels_) {
+      if (channel == Channel::color && only_bytes_of_color()) {
+        drawn.color = ByteImage(camera.size(), 3);
+        std::vector<uint8_t>& bytes = drawn.color.values;
+        shot.outputs.push_back(
+            {channel, {.pixels = bytes.data(), .bytes = bytes.size(), .format = PixelFormat::srgb8}});
+      } else {
+        Image& image = drawn.images.emplace(channel, make_image(channel, camera.size())).first->second;
+        shot.outputs.push_back({channel, buffer_of(image)});
+      }
+    }
+    scene.render(shot, render_options_, &drawn.stats.render);
     drawn.stats.render_ms = milliseconds_since(begin) - drawn.stats.render.setup_ms;
     drawn.panorama = panorama_place(camera, worldFromCamera);
     return drawn;
   }
 
+  bool only_bytes_of_color() const {
+    return std::ranges::all_of(outputs_, [](const OutputFile& output) {
+      return output.channel != Channel::color || holds_bytes_of_color(output.path);
+    });
+  }
+
   FrameStats write(DrawnFrame drawn) const {
     const auto begin = std::chrono::steady_clock::now();
-    for (const Output& output : outputs_) {
+    for (const OutputFile& output : outputs_) {
       const fs::path path = output.path_of(drawn.stats.frame);
-      write_image(path, drawn.images.at(output.channel), output.channel, drawn.panorama);
+      if (output.channel == Channel::color && only_bytes_of_color()) {
+        write_image(path, drawn.color, drawn.panorama);
+      } else {
+        write_image(path, drawn.images.at(output.channel), output.channel, drawn.panorama);
+      }
       drawn.stats.files.push_back(path.string());
     }
     drawn.stats.write_ms = milliseconds_since(begin);
@@ -264,7 +288,7 @@ class Job {
   }
 
   std::string scene_text_, camera_text_;
-  std::vector<Output> outputs_;
+  std::vector<OutputFile> outputs_;
   std::vector<Channel> channels_;
   RenderOptions render_options_;
   View view_;

@@ -16,15 +16,13 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const omma::Scene scene = omma::load_scene(argv[1]);
+    const omma::PreparedScene scene(omma::Device(), omma::load_scene(argv[1]));
     const omma::Camera camera = omma::make_camera("equidistant:fov_deg=180", omma::ImageSize{512, 512});
-    const omma::Viewpoint view = omma::default_viewpoint(scene, camera);
+    const omma::Viewpoint view = omma::default_viewpoint(scene.scene(), camera);
     const glm::dmat4 worldFromCamera = omma::look_at_worldFromCamera(view.from, view.to);
 
-    omma::Renderer renderer;
-    renderer.load(scene);
     const std::array wanted{omma::Channel::color};
-    const auto images = renderer.render(camera, worldFromCamera, wanted, omma::RenderOptions{});
+    const auto images = scene.render(camera, worldFromCamera, wanted, omma::RenderOptions{});
     omma::write_image(argv[2], images.at(omma::Channel::color), omma::Channel::color);
   } catch (const omma::Error& error) {
     std::fprintf(stderr, "minimal: %s\n", error.what());

@@ -1,5 +1,5 @@
-# Installs the build, moves the installation elsewhere, builds examples/minimal against it with find_package(omma) and
-# compares the example's picture with the installed tool's.
+# Installs the build, moves the installation elsewhere, builds the examples against it with find_package(omma), runs them,
+# and compares the first one's picture with the installed tool's.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -24,12 +24,17 @@ foreach(name ${package_files})
 endforeach()
 
 file(RENAME ${WORK}/first ${WORK}/moved)
-run(${CMAKE_COMMAND} -S ${SOURCE}/examples/minimal -B ${WORK}/example -G ${GENERATOR}
-    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH=${WORK}/moved
-    -DCMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON)
-run(${CMAKE_COMMAND} --build ${WORK}/example)
+foreach(example minimal realtime rig moving_vertices)
+  run(${CMAKE_COMMAND} -S ${SOURCE}/examples/${example} -B ${WORK}/${example} -G ${GENERATOR}
+      -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH=${WORK}/moved
+      -DCMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON)
+  run(${CMAKE_COMMAND} --build ${WORK}/${example})
+endforeach()
 
-run(${WORK}/example/minimal room ${WORK}/example.png)
+run(${WORK}/minimal/minimal room ${WORK}/example.png)
+run(${WORK}/realtime/realtime room)
+run(${WORK}/rig/rig room ${WORK})
+run(${WORK}/moving_vertices/moving_vertices ${WORK})
 run(${WORK}/moved/bin/omma render room --camera equidistant:fov_deg=180 --size 512x512 -o ${WORK}/tool.png)
 run(${WORK}/moved/bin/omma compare ${WORK}/example.png ${WORK}/tool.png --max-max 0)
 

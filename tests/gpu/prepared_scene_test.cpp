@@ -1,5 +1,6 @@
 // A prepared scene as its callers meet it: refusals, several at a time, scenes and cameras that come and go.
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <thread>
@@ -92,6 +93,59 @@ TEST_F(PreparedSceneTest, ViewsOnThreadsEqualThoseOneAfterAnother) {
             << "view " << view << ", round " << round;
       }
     }
+  }
+}
+
+TEST_F(PreparedSceneTest, ARigInOneCallEqualsItsCamerasOneByOne) {
+  const PreparedScene scene(device(), load_scene("room"));
+  for (const char* technique : {"visibility:cpu", "nonlinear"}) {
+    const RenderOptions options{.technique = technique, .samples = 2, .shadows = Shadows::cube, .shadow_size = 64};
+    std::vector<Shot> rig;
+    std::vector<std::vector<uint8_t>> colors;
+    std::vector<std::vector<float>> distances;
+    for (int i = 0; i < 4; ++i) {
+      const Camera camera = make_camera("equidistant:fov_deg=170", ImageSize{40 + 10 * i, 40});
+      const auto pixels = size_t(camera.size().width) * 40;
+      colors.emplace_back(3 * pixels);
+      distances.emplace_back(pixels);
+      const glm::dmat4 pose = look_at_worldFromCamera({0.1 * i, 0.5, 0.0}, {std::sin(1.6 * i), 0.4, std::cos(1.6 * i)});
+      rig.push_back({camera,
+                     pose,
+                     {{Channel::color, {colors.back().data(), 3 * pixels, 0, PixelFormat::srgb8}},
+                      {Channel::distance, {distances.back().data(), 4 * pixels}}}});
+    }
+    std::vector<RenderStats> stats;
+    scene.render(rig, options, &stats);
+    ASSERT_EQ(stats.size(), rig.size());
+    const Channel wanted[] = {Channel::color, Channel::distance};
+    for (size_t i = 0; i < rig.size(); ++i) {
+      auto alone = scene.render(rig[i].camera, rig[i].worldFromCamera, wanted, options);
+      std::vector<uint8_t> encoded(colors[i].size());
+      copy_image(alone.at(Channel::color), {Channel::color, {encoded.data(), encoded.size(), 0, PixelFormat::srgb8}});
+      EXPECT_EQ(colors[i], encoded) << technique << " " << i;
+      EXPECT_EQ(distances[i], std::get<FloatImage>(alone.at(Channel::distance)).values) << technique << " " << i;
+    }
+    // One output that does not fit: nothing is drawn of any.
+    const std::vector<uint8_t> before = colors[0];
+    std::fill(colors[0].begin(), colors[0].end(), uint8_t(7));
+    rig.back().outputs.back().to.bytes -= 4;
+    EXPECT_THROW(scene.render(rig, options), CommandError);
+    EXPECT_EQ(colors[0], std::vector<uint8_t>(before.size(), 7));
+    rig.back().outputs.back() = rig.back().outputs.front();
+    EXPECT_THROW(scene.render(rig, options), CommandError);
+  }
+}
+
+TEST_F(PreparedSceneTest, StopsInEveryTechnique) {
+  std::stop_source source;
+  source.request_stop();
+  for (const std::string& technique : technique_names_of_today()) {
+    const Camera flat = make_camera("perspective:fov_deg=90", ImageSize{33, 20});
+    const Camera& camera = can_draw(technique, camera_) ? camera_ : flat;
+    const RenderOptions stopped{.technique = technique, .stop = source.get_token()};
+    EXPECT_THROW(draw(camera, pose_, {Channel::color}, stopped), Cancelled) << technique;
+    EXPECT_THROW(draw(camera, pose_, {Channel::id}, stopped), Cancelled) << technique;
+    EXPECT_NO_THROW(draw(camera, pose_, {Channel::color}, {.technique = technique})) << technique;
   }
 }
 

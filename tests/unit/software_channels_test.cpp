@@ -157,7 +157,7 @@ TEST(SoftwareRendererTest, RefusesWhatItCannotDraw) {
   const Camera camera = make_camera("equidistant", ImageSize{8, 8});
   constexpr Channel color[] = {Channel::id, Channel::color}, id[] = {Channel::id};
   EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), color, {.samples = 0}), CommandError);
-  EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), {}), CommandError);
+  EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), std::span<const Channel>()), CommandError);
   const Scene empty;
   const LazySceneIndex no_index(empty);
   const SoftwareRenderer nothing(no_index);

@@ -206,5 +206,46 @@ TEST(MipTextureTest, EveryLevelHasTheLightOfTheFirst) {
   }
 }
 
+TEST(SoftwareColorTest, GoesIntoTheCallersMemoryAsItIsOrEncoded) {
+  const Scene scene = make_ball_and_pane();
+  const LazySceneIndex index(scene);
+  const SoftwareRenderer renderer(index);
+  // Not a multiple of a square, with pixels and squares that have no ray.
+  const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{75, 70});
+  for (const int samples : {1, 4, 20}) {  // 20 are more than one pass
+    const SoftwareOptions options{.samples = samples};
+    Image expected = draw(renderer, camera, glm::dmat4(1.0), options);
+    std::vector<float> floats(size_t(3 * 80 * 70), 7.0f);
+    std::vector<uint8_t> bytes(size_t(4 * 75 * 70)), encoded(bytes.size());
+    const Output linear{Channel::color, {floats.data(), floats.size() * 4, 3 * 80 * 4, PixelFormat::float32, true}};
+    const Output for_screen{Channel::color, {bytes.data(), bytes.size(), 0, PixelFormat::srgba8}};
+    renderer.render(camera, glm::dmat4(1.0), std::span(&linear, 1), options);
+    renderer.render(camera, glm::dmat4(1.0), std::span(&for_screen, 1), options);
+    copy_image(expected, {Channel::color, {encoded.data(), encoded.size(), 0, PixelFormat::srgba8}});
+    EXPECT_EQ(bytes, encoded) << samples;
+    const auto& image = std::get<FloatImage>(expected);
+    for (int y = 0; y < 70; ++y) {
+      for (int i = 0; i < 3 * 80; ++i) {
+        ASSERT_EQ(floats[size_t(3 * 80 * (69 - y) + i)], i < 3 * 75 ? image.at(0, y)[i] : 7.0f) << i << ", " << y;
+      }
+    }
+  }
+}
+
+TEST(SoftwareColorTest, StopsWhenItIsAskedTo) {
+  const Scene scene = make_ball_and_pane();
+  const LazySceneIndex index(scene);
+  const SoftwareRenderer renderer(index);
+  const Camera camera = make_camera("equidistant:fov_deg=180", ImageSize{64, 64});
+  std::stop_source source;
+  const SoftwareOptions options{.stop = source.get_token()};
+  const FloatImage picture = draw(renderer, camera, glm::dmat4(1.0), options);
+  source.request_stop();
+  EXPECT_THROW(draw(renderer, camera, glm::dmat4(1.0), options), Cancelled);
+  constexpr Channel labels[] = {Channel::id};
+  EXPECT_THROW(renderer.render(camera, glm::dmat4(1.0), labels, options), Cancelled);
+  EXPECT_EQ(draw(renderer, camera, glm::dmat4(1.0), {}).values, picture.values);
+}
+
 }  // namespace
 }  // namespace omma

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <exception>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -45,7 +47,16 @@ struct MachineError : Error {
       : Error(ErrorKind::machine, format, fmt::make_format_args(args...)) {}
 };
 
-/// Says something on standard error without stopping: a texture that is missing, vertices that were dropped.
+/// Nothing went wrong: the caller asked for the work to stop (RenderOptions::stop).
+struct Cancelled : std::exception {
+  const char* what() const noexcept override { return "cancelled"; }
+};
+
+/// Says something without stopping: a texture that is missing, vertices that were dropped. On standard error, unless
+/// there is a sink.
 void warn(const std::string& message);
+
+/// Where warnings of all threads go from now on, one call at a time; nothing: to standard error again.
+void set_warning_sink(std::function<void(const std::string& message)> sink);
 
 }  // namespace omma

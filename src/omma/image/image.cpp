@@ -34,6 +34,12 @@ Channel channel_from_name(const std::string& name) {
   throw CommandError("{}", unknown_name("channel", name, names));
 }
 
+Image make_image(Channel channel, ImageSize size) {
+  const ChannelInfo& info = channel_info(channel);
+  if (info.integer) return IntImage(size, info.components);
+  return FloatImage(size, info.components);
+}
+
 ImageSize image_size(const Image& image) {
   return std::visit([](const auto& typed) { return typed.size; }, image);
 }

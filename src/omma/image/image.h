@@ -58,7 +58,11 @@ struct ImageOf {
 
 using FloatImage = ImageOf<float>;
 using IntImage = ImageOf<int32_t>;
+using ByteImage = ImageOf<uint8_t>;  ///< encoded, as a screen takes it
 using Image = std::variant<FloatImage, IntImage>;
+
+/// Of a channel's kind and components, all zero.
+Image make_image(Channel channel, ImageSize size);
 
 ImageSize image_size(const Image& image);
 int image_components(const Image& image);

@@ -1,5 +1,6 @@
 #include "omma/image/srgb8.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -67,6 +68,21 @@ class Table {
 void srgb8_from_linear(const float* from, uint8_t* to, size_t count) {
   static const Table table;
   table(from, to, count);
+}
+
+void srgb8_row(const float* from, size_t pixels, int components, uint8_t* to) {
+  if (components == 3) return srgb8_from_linear(from, to, 3 * pixels);
+  constexpr size_t at_once = 64;
+  uint8_t encoded[3 * at_once];
+  for (size_t first = 0; first < pixels; first += at_once) {
+    const size_t count = std::min(at_once, pixels - first);
+    srgb8_from_linear(from + 3 * first, encoded, 3 * count);
+    for (size_t i = 0; i < count; ++i) {
+      uint8_t* pixel = to + 4 * (first + i);
+      for (int c = 0; c < 3; ++c) pixel[c] = encoded[3 * i + size_t(c)];
+      pixel[3] = 255;
+    }
+  }
 }
 
 }  // namespace omma

@@ -58,13 +58,12 @@ void write_encoded(const fs::path& path, const Encode& encode) {
   write_text(path, bytes);
 }
 
-void write_srgb8(const fs::path& path, ImageFormat format, const FloatImage& image,
+/// `fill`: as that of Rows.
+void write_srgb8(const fs::path& path, ImageFormat format, ImageSize size, std::function<void(int, uint8_t*)> fill,
                  const std::optional<PanoramaPlace>& panorama) {
   constexpr int jpeg_quality = 95;
-  const std::string xmp = panorama ? gpano_xmp(*panorama, image.size) : std::string();
-  const Rows rows{.size = image.size, .components = image.components, .fill = [&](int y, uint8_t* to) {
-                    srgb8_from_linear(image.at(0, y), to, size_t(image.size.width) * size_t(image.components));
-                  }};
+  const std::string xmp = panorama ? gpano_xmp(*panorama, size) : std::string();
+  const Rows rows{.size = size, .fill = std::move(fill)};
   write_encoded(path, [&] {
     return format == ImageFormat::jpg ? encode_jpeg(rows, jpeg_quality, xmp) : encode_png(rows, true, xmp);
   });
@@ -132,10 +131,26 @@ void write_image(const fs::path& path, const Image& image, Channel channel,
         if constexpr (std::is_same_v<T, int32_t>) {
           write_png16(path, typed, info);
         } else {
-          format == ImageFormat::pfm ? write_pfm(path, typed) : write_srgb8(path, format, typed, place);
+          if (format == ImageFormat::pfm) return write_pfm(path, typed);
+          const auto fill = [&](int y, uint8_t* to) { srgb8_row(typed.at(0, y), size_t(typed.size.width), 3, to); };
+          write_srgb8(path, format, typed.size, fill, place);
         }
       },
       image);
+}
+
+bool holds_bytes_of_color(const fs::path& path) {
+  const ImageFormatInfo* format = find_image_format(path);
+  return format != nullptr && (format->format == ImageFormat::png || format->format == ImageFormat::jpg);
+}
+
+void write_image(const fs::path& path, const ByteImage& color, const std::optional<PanoramaPlace>& panorama) {
+  const ImageFormat format = format_for(path, channel_info(Channel::color)).format;
+  if (!holds_bytes_of_color(path) || color.components != 3) {
+    throw CommandError("{}: three bytes a pixel go into .png and .jpg alone", path.string());
+  }
+  const auto fill = [&](int y, uint8_t* to) { std::copy_n(color.at(0, y), 3 * size_t(color.size.width), to); };
+  write_srgb8(path, format, color.size, fill, panorama);
 }
 
 }  // namespace omma

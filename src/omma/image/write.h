@@ -25,4 +25,10 @@ void check_image_output(const std::filesystem::path& path, Channel channel);
 void write_image(const std::filesystem::path& path, const Image& image, Channel channel,
                  const std::optional<PanoramaPlace>& panorama = std::nullopt);
 
+/// Colour alone goes there, of 8 bits: a .png or .jpg.
+bool holds_bytes_of_color(const std::filesystem::path& path);
+/// The same of colour that is encoded already (PixelFormat::srgb8).
+void write_image(const std::filesystem::path& path, const ByteImage& color,
+                 const std::optional<PanoramaPlace>& panorama = std::nullopt);
+
 }  // namespace omma

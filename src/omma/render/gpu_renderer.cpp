@@ -26,12 +26,6 @@ namespace {
 /// A tile's images are many (samples, depth, channels); larger tiles gain nothing.
 constexpr int preferred_tile = 4096;
 
-Image make_image(Channel channel, ImageSize size) {
-  const ChannelInfo& info = channel_info(channel);
-  if (info.integer) return IntImage(size, info.components);
-  return FloatImage(size, info.components);
-}
-
 void paste(const Image& tile, const PixelRect& place, Image& whole) {
   std::visit(
       [&](const auto& part) {
@@ -105,13 +99,15 @@ double GpuRenderer::timed(const std::function<void()>& draw) {
   return sum;
 }
 
-Image GpuRenderer::draw_color(Technique& technique, View view, const Passes& passes, bool show_pieces) {
+Image GpuRenderer::draw_color(Technique& technique, View view, const Passes& passes, bool show_pieces,
+                              const std::stop_token& stop) {
   static constexpr Channel outputs[] = {Channel::color};
   view.outputs = outputs;
   view.sample_places = passes.sample_places;
   const Target& picture = target_for(view.size(), outputs);
   const std::span<const glm::dvec2> shifts(passes.shifts);
   const auto draw_pass = [&](std::span<const glm::dvec2> of_pass) {
+    if (stop.stop_requested()) throw Cancelled();
     if (of_pass.size() > 1) {
       view.shifts = of_pass;
     } else {
@@ -198,6 +194,7 @@ std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dm
   tools_.counters.finish();
   BoundFragments bound_fragments;
   for (const PixelRect& tile : tiles) {
+    if (options.stop.stop_requested()) throw Cancelled();
     View view{.camera = camera, .worldFromCamera = worldFromCamera, .tile = tile};
     view.filter = options.filter;
     view.face_size = options.face_size;
@@ -207,7 +204,7 @@ std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dm
     if (pictures.contains(Channel::color)) {
       View shaded = view;
       shaded.effects = effects;
-      paste(draw_color(technique, shaded, passes, options.show.contains(Show::pieces)), tile,
+      paste(draw_color(technique, shaded, passes, options.show.contains(Show::pieces), options.stop), tile,
             pictures.at(Channel::color));
     }
     draw_channels(technique, view, pictures);

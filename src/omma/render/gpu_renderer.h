@@ -39,7 +39,8 @@ class GpuRenderer {
   const Target& target_for(ImageSize size, std::span<const Channel> outputs);
   /// Milliseconds that all stages of `draw` took.
   double timed(const std::function<void()>& draw);
-  Image draw_color(Technique& technique, View view, const Passes& passes, bool show_pieces);
+  Image draw_color(Technique& technique, View view, const Passes& passes, bool show_pieces,
+                   const std::stop_token& stop);
   void draw_piece_borders(const Technique& technique, const View& view, const Target& picture);
   void draw_channels(Technique& technique, View view, std::map<Channel, Image>& pictures);
 

@@ -1,11 +1,15 @@
 #include "omma/render/prepared_scene.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <shared_mutex>
 #include <thread>
 
 #include "omma/base/error.h"
+#include "omma/base/isolated.h"
 #include "omma/render/device_parts.h"
 #include "omma/render/gpu_renderer.h"
 #include "omma/software/software_renderer.h"
@@ -18,8 +22,7 @@ namespace {
 constexpr int max_samples = 1024;
 
 /// Throws CommandError for what no technique could draw.
-void check(std::span<const Channel> wanted, const RenderOptions& options) {
-  if (wanted.empty()) throw CommandError("no channel is asked for");
+void check(const RenderOptions& options) {
   if (options.samples < 1 || options.samples > max_samples) {
     throw CommandError("{} samples per pixel; 1 to {} are possible", options.samples, max_samples);
   }
@@ -27,6 +30,22 @@ void check(std::span<const Channel> wanted, const RenderOptions& options) {
   if (std::min(options.shadow_size, options.reflection_size) < 16) {
     throw CommandError("a shadow or reflection map of {} texels; 16 or more make one",
                        std::min(options.shadow_size, options.reflection_size));
+  }
+}
+
+/// What is shown over the picture needs OpenGL.
+bool is_plain(const RenderOptions& options) {
+  return !options.show.contains(Show::pieces) && !options.show.contains(Show::overdraw);
+}
+
+void check(const Shot& shot) {
+  if (shot.outputs.empty()) throw CommandError("no channel is asked for");
+  std::set<Channel> channels;
+  for (const Output& output : shot.outputs) {
+    check(output, shot.camera.size());
+    if (!channels.insert(output.channel).second) {
+      throw CommandError("channel '{}' has two outputs", channel_info(output.channel).name);
+    }
   }
 }
 
@@ -57,11 +76,13 @@ struct PreparedScene::Parts {
   std::shared_lock<std::shared_mutex> settle(RenderStats& stats);
   /// With the device's mutex, and its context current.
   GpuRenderer& on_gpu(RenderStats& stats);
-  void draw_without_gl(const Camera& camera, const glm::dmat4& worldFromCamera, std::span<const Channel> wanted,
-                       const RenderOptions& options, std::map<Channel, Image>& pictures, RenderStats& stats);
-  void draw_by_gl(const Camera& camera, const glm::dmat4& worldFromCamera, std::span<const Channel> wanted,
-                  const RenderOptions& options, const ChosenTechnique& chosen, std::map<Channel, Image>& pictures,
-                  RenderStats& stats);
+  /// How a shot is drawn, which is in order.
+  ChosenTechnique choose(const Shot& shot, const RenderOptions& options, RenderStats& stats) const;
+  void draw(const Shot& shot, const RenderOptions& options, const ChosenTechnique& chosen, RenderStats& stats);
+  void draw_without_gl(const Shot& shot, std::span<const Output> outputs, const RenderOptions& options,
+                       RenderStats& stats);
+  void draw_by_gl(const Shot& shot, std::span<const Output> outputs, const RenderOptions& options,
+                  const ChosenTechnique& chosen, RenderStats& stats);
 };
 
 PreparedScene::Parts::~Parts() {
@@ -106,9 +127,8 @@ GpuRenderer& PreparedScene::Parts::on_gpu(RenderStats& stats) {
   return *gpu;
 }
 
-void PreparedScene::Parts::draw_without_gl(const Camera& camera, const glm::dmat4& worldFromCamera,
-                                           std::span<const Channel> wanted, const RenderOptions& options,
-                                           std::map<Channel, Image>& pictures, RenderStats& stats) {
+void PreparedScene::Parts::draw_without_gl(const Shot& shot, std::span<const Output> outputs,
+                                           const RenderOptions& options, RenderStats& stats) {
   stats.setup_ms += milliseconds([&] { index.get(); });
   SoftwareStats took;
   const SoftwareOptions how{.samples = options.samples,
@@ -118,8 +138,9 @@ void PreparedScene::Parts::draw_without_gl(const Camera& camera, const glm::dmat
                             .shadows = options.shadows,
                             .shadow_size = options.shadow_size,
                             .reflect = options.reflect,
-                            .reflection_size = options.reflection_size};
-  pictures = software.render(camera, worldFromCamera, wanted, how, &took);
+                            .reflection_size = options.reflection_size,
+                            .stop = options.stop};
+  software.render(shot.camera, shot.worldFromCamera, outputs, how, &took);
   stats.renderer =
       fmt::format("the processor ({}, {} threads)", simd_targets().front(), std::thread::hardware_concurrency());
   stats.buffer_bytes = took.bytes;
@@ -130,10 +151,8 @@ void PreparedScene::Parts::draw_without_gl(const Camera& camera, const glm::dmat
   stats.stage_ms.insert(stats.stage_ms.end(), took.stage_ms.begin(), took.stage_ms.end());
 }
 
-void PreparedScene::Parts::draw_by_gl(const Camera& camera, const glm::dmat4& worldFromCamera,
-                                      std::span<const Channel> wanted, const RenderOptions& options,
-                                      const ChosenTechnique& chosen, std::map<Channel, Image>& pictures,
-                                      RenderStats& stats) {
+void PreparedScene::Parts::draw_by_gl(const Shot& shot, std::span<const Output> outputs, const RenderOptions& options,
+                                      const ChosenTechnique& chosen, RenderStats& stats) {
   const std::lock_guard lock(device->mutex);
   const gl::Current before;
   GpuRenderer* renderer = nullptr;
@@ -147,7 +166,10 @@ void PreparedScene::Parts::draw_by_gl(const Camera& camera, const glm::dmat4& wo
   });
   stats.technique = chosen.name();
   const auto others = std::move(stats.stage_ms);
-  pictures.merge(renderer->render(camera, worldFromCamera, wanted, options, chosen, stats));
+  std::vector<Channel> wanted;
+  for (const Output& output : outputs) wanted.push_back(output.channel);
+  const auto pictures = renderer->render(shot.camera, shot.worldFromCamera, wanted, options, chosen, stats);
+  for (const Output& output : outputs) copy_image(pictures.at(output.channel), output);
   stats.stage_ms.insert(stats.stage_ms.begin(), others.begin(), others.end());
 }
 
@@ -165,39 +187,71 @@ void PreparedScene::edit(const std::function<void(SceneEdit&)>& change) {
   change(edit);
 }
 
+ChosenTechnique PreparedScene::Parts::choose(const Shot& shot, const RenderOptions& options, RenderStats& stats) const {
+  Occasion occasion;
+  occasion.shaded = std::ranges::find(shot.outputs, Channel::color, &Output::channel) != shot.outputs.end();
+  occasion.plain = is_plain(options);
+  if (options.technique == "auto" && occasion.shaded && occasion.plain) {
+    stats.setup_ms += milliseconds([&] {
+      const std::lock_guard lock(device->mutex);
+      const gl::Current before;
+      occasion.gpu = device->has_gpu();
+    });
+  }
+  ChosenTechnique chosen = choose_technique(options.technique, shot.camera, occasion);
+  check_show(options.show, chosen);
+  return chosen;
+}
+
+void PreparedScene::Parts::draw(const Shot& shot, const RenderOptions& options, const ChosenTechnique& chosen,
+                                RenderStats& stats) {
+  stats.triangles = scene.triangle_count();
+  stats.technique = chosen.name();
+  std::vector<Output> by_gl, without_gl;
+  for (const Output& output : shot.outputs) {
+    const bool needs_gl = !chosen.draws_without_gl() || (output.channel == Channel::color && !is_plain(options));
+    (needs_gl ? by_gl : without_gl).push_back(output);
+  }
+  if (!without_gl.empty()) draw_without_gl(shot, without_gl, options, stats);
+  if (!by_gl.empty()) draw_by_gl(shot, by_gl, options, with_gl(chosen), stats);
+}
+
+void PreparedScene::render(std::span<const Shot> shots, const RenderOptions& options,
+                           std::vector<RenderStats>* stats) const {
+  check(options);
+  for (const Shot& shot : shots) check(shot);
+  std::vector<RenderStats> took(shots.size());
+  std::vector<ChosenTechnique> chosen;
+  for (size_t i = 0; i < shots.size(); ++i) chosen.push_back(parts_->choose(shots[i], options, took[i]));
+  if (!shots.empty()) {
+    const auto shared = parts_->settle(took.front());
+    // OpenGL has one context: there they take turns.
+    const bool beside_each_other = std::ranges::all_of(chosen, &ChosenTechnique::draws_without_gl) && is_plain(options);
+    const auto draw = [&](size_t i) { parts_->draw(shots[i], options, chosen[i], took[i]); };
+    isolated([&] {  // the scene is locked
+      if (beside_each_other) return tbb::parallel_for(size_t{0}, shots.size(), draw);
+      for (size_t i = 0; i < shots.size(); ++i) draw(i);
+    });
+  }
+  if (stats != nullptr) *stats = std::move(took);
+}
+
+void PreparedScene::render(const Shot& shot, const RenderOptions& options, RenderStats* stats) const {
+  std::vector<RenderStats> took;
+  render(std::span(&shot, 1), options, &took);
+  if (stats != nullptr) *stats = std::move(took.front());
+}
+
 std::map<Channel, Image> PreparedScene::render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                                std::span<const Channel> wanted, const RenderOptions& options,
                                                RenderStats* stats) const {
-  check(wanted, options);
-  RenderStats took;
-  Occasion occasion;
-  occasion.shaded = std::find(wanted.begin(), wanted.end(), Channel::color) != wanted.end();
-  occasion.plain = !options.show.contains(Show::pieces) && !options.show.contains(Show::overdraw);
-  if (options.technique == "auto" && occasion.shaded && occasion.plain) {
-    took.setup_ms += milliseconds([&] {
-      const std::lock_guard lock(parts_->device->mutex);
-      const gl::Current before;
-      occasion.gpu = parts_->device->has_gpu();
-    });
-  }
-  const ChosenTechnique chosen = choose_technique(options.technique, camera, occasion);
-  check_show(options.show, chosen);
-  const auto shared = parts_->settle(took);
-  took.triangles = parts_->scene.triangle_count();
-  took.technique = chosen.name();
-  std::vector<Channel> by_gl, without_gl;
-  for (const Channel channel : wanted) {
-    const bool needs_gl = !chosen.draws_without_gl() || (channel == Channel::color && !occasion.plain);
-    (needs_gl ? by_gl : without_gl).push_back(channel);
-  }
   std::map<Channel, Image> pictures;
-  if (!without_gl.empty()) {
-    parts_->draw_without_gl(camera, worldFromCamera, without_gl, options, pictures, took);
+  Shot shot{camera, worldFromCamera, {}};
+  for (const Channel channel : wanted) {
+    const auto [image, is_new] = pictures.emplace(channel, make_image(channel, camera.size()));
+    if (is_new) shot.outputs.push_back({channel, buffer_of(image->second)});
   }
-  if (!by_gl.empty()) {
-    parts_->draw_by_gl(camera, worldFromCamera, by_gl, options, with_gl(chosen), pictures, took);
-  }
-  if (stats != nullptr) *stats = std::move(took);
+  render(shot, options, stats);
   return pictures;
 }
 

@@ -6,10 +6,12 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "omma/camera/camera.h"
 #include "omma/image/image.h"
 #include "omma/render/device.h"
+#include "omma/render/shot.h"
 #include "omma/scene/edit.h"
 #include "omma/scene/scene.h"
 #include "omma/technique/picture.h"
@@ -38,9 +40,17 @@ class PreparedScene {
     edit([&](SceneEdit& scene) { scene.set_time(seconds, animation); });
   }
 
-  /// The image of every channel asked for. `worldFromCamera` is rigid. `visibility:cpu` opens no OpenGL but to
-  /// show pieces; for colour, `auto` opens it to see whether there is a GPU. Throws CommandError for options that make
-  /// no sense or do not go together, MachineError for what this driver cannot do.
+  /// Draws into the memory of the outputs. `worldFromCamera` is rigid. `visibility:cpu` opens no OpenGL but to show
+  /// pieces; for colour, `auto` opens it to see whether there is a GPU. Throws CommandError for outputs that
+  /// omma::check refuses and for options that make no sense or do not go together, all before anything is drawn,
+  /// MachineError for what this driver cannot do, and Cancelled when options.stop says so: what is in the memory is
+  /// then good for nothing.
+  void render(const Shot& shot, const RenderOptions& options, RenderStats* stats = nullptr) const;
+  /// All cameras of a rig, or both eyes, of the scene at one moment: what they have in common is made once, and where
+  /// the processor draws they are drawn beside each other. `stats`, if there, becomes one for each shot.
+  void render(std::span<const Shot> shots, const RenderOptions& options,
+              std::vector<RenderStats>* stats = nullptr) const;
+  /// The image of every channel asked for.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const RenderOptions& options,
                                   RenderStats* stats = nullptr) const;

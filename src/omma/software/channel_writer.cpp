@@ -12,11 +12,12 @@ void put(const glm::dvec3& value, float* to) {
 }  // namespace
 
 ChannelWriter::ChannelWriter(std::span<const SeenInstance> instances, const glm::dmat4& worldFromCamera,
-                             std::map<Channel, Image>& images)
+                             std::span<const Output> outputs, ImageSize size)
     : instances_(instances), worldFromCamera_(worldFromCamera) {
-  const auto find = [&]<typename T>(Channel channel, T*& picture) {
-    const auto found = images.find(channel);
-    if (found != images.end()) picture = &std::get<T>(found->second);
+  const auto find = [&]<typename T>(Channel channel, PixelRows<T>& rows) {
+    for (const Output& output : outputs) {
+      if (output.channel == channel) rows = {output.to, size, pixel_bytes(output.to.format, channel_info(channel))};
+    }
   };
   find(Channel::distance, distance_);
   find(Channel::z, z_);
@@ -39,9 +40,9 @@ void ChannelWriter::write(const RayBlock& block, const BlockPicture& picture) co
       const int x = block.pixel_x + RayBlock::x_of(leaf, ray);
       const int y = block.pixel_y + RayBlock::y_of(leaf, ray);
       const SeenInstance& instance = instances_[picture.instance[leaf][ray]];
-      if (id_) *id_->at(x, y) = int32_t(id);
-      if (object_) *object_->at(x, y) = instance.object;
-      if (material_) *material_->at(x, y) = instance.material;
+      if (id_) *id_.at(x, y) = int32_t(id);
+      if (object_) *object_.at(x, y) = instance.object;
+      if (material_) *material_.at(x, y) = instance.material;
       if (!needs_point()) continue;
       if (id != last) triangle.emplace(instance, id);
       last = id;
@@ -53,14 +54,14 @@ void ChannelWriter::write(const RayBlock& block, const BlockPicture& picture) co
 
 void ChannelWriter::write(const SeenTriangle& triangle, const glm::dvec3& direction, const SeenPoint& point, int x,
                           int y) const {
-  if (distance_) *distance_->at(x, y) = float(point.distance);
-  if (z_) *z_->at(x, y) = float(-point.distance * direction.z);
-  if (normal_) put(triangle.normal(point), normal_->at(x, y));
-  if (position_) put(worldFromCamera_ * glm::dvec4(point.distance * direction, 1.0), position_->at(x, y));
+  if (distance_) *distance_.at(x, y) = float(point.distance);
+  if (z_) *z_.at(x, y) = float(-point.distance * direction.z);
+  if (normal_) put(triangle.normal(point), normal_.at(x, y));
+  if (position_) put(worldFromCamera_ * glm::dvec4(point.distance * direction, 1.0), position_.at(x, y));
   if (uv_) {
     const glm::vec2 uv(triangle.uv(point));
-    uv_->at(x, y)[0] = uv.x;
-    uv_->at(x, y)[1] = uv.y;
+    uv_.at(x, y)[0] = uv.x;
+    uv_.at(x, y)[1] = uv.y;
   }
 }
 

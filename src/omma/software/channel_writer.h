@@ -2,26 +2,22 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <map>
 #include <span>
 #include <vector>
 
-#include "omma/image/image.h"
+#include "omma/image/pixel_buffer.h"
 #include "omma/scene/scene.h"
 #include "omma/software/seen_triangle.h"
 #include "omma/visibility/finder.h"
 
 namespace omma {
 
-/// True where it needs the materials' look: colour.
-inline bool is_shaded(Channel channel) { return channel == Channel::color; }
-
 class ChannelWriter {
  public:
-  /// Into those of `images` that are no colour: of the size of the camera's image, and filled with what there is where
-  /// nothing is. The instances, by their number, and the images must outlive this object.
+  /// Into those of `outputs` that are no colour, of a picture of this size; filled with what there is where nothing is.
+  /// The instances, by their number, and the memory must outlive this object.
   ChannelWriter(std::span<const SeenInstance> instances, const glm::dmat4& worldFromCamera,
-                std::map<Channel, Image>& images);
+                std::span<const Output> outputs, ImageSize size);
 
   /// What the rays of a block meet. Several threads may write blocks at once.
   void write(const RayBlock& block, const BlockPicture& picture) const;
@@ -32,9 +28,9 @@ class ChannelWriter {
 
   std::span<const SeenInstance> instances_;
   glm::dmat4 worldFromCamera_;
-  /// Null are those that are not wanted.
-  FloatImage *distance_ = nullptr, *z_ = nullptr, *normal_ = nullptr, *position_ = nullptr, *uv_ = nullptr;
-  IntImage *id_ = nullptr, *object_ = nullptr, *material_ = nullptr;
+  /// Without memory are those that are not wanted.
+  PixelRows<float> distance_, z_, normal_, position_, uv_;
+  PixelRows<int32_t> id_, object_, material_;
 };
 
 }  // namespace omma

@@ -209,7 +209,7 @@ uint32_t Fragments::put(const Kind& kind, int at, const glm::vec3& direction) {
   return to;
 }
 
-void Fragments::resolve(float share, bool is_first, FloatImage& image, glm::ivec2 corner) const {
+void Fragments::resolve(float share, bool is_first, const ColorRows& to, glm::ivec2 corner) const {
   glm::vec3 sum[pixels];
   const auto color = [&](uint32_t at) { return glm::vec3(red[at], green[at], blue[at]); };
   for (int i = 0; i < pixels; ++i) sum[i] = place_[i] == no_fragment ? glm::vec3(0.0f) : share * color(place_[i]);
@@ -225,18 +225,7 @@ void Fragments::resolve(float share, bool is_first, FloatImage& image, glm::ivec
     }
     sum[layers.pixel] += of_sample * behind;
   }
-  for (int leaf = 0; leaf < RayBlock::leaves; ++leaf) {
-    for (int first = 0; first < 16; first += RayBlock::leaf_side) {
-      const int left = corner.x + RayBlock::x_of(leaf, first), row = corner.y + RayBlock::y_of(leaf, first);
-      if (row >= image.size.height || left >= image.size.width) continue;
-      const int across = std::min(RayBlock::leaf_side, image.size.width - left);
-      float* to = image.at(left, row);
-      for (int i = 0; i < across; ++i) {
-        const glm::vec3& value = sum[leaf * 16 + first + i];
-        for (int c = 0; c < 3; ++c) to[3 * i + c] = is_first ? value[c] : to[3 * i + c] + value[c];
-      }
-    }
-  }
+  to.put(sum, is_first, corner);
 }
 
 }  // namespace omma

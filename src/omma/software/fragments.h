@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "omma/image/image.h"
+#include "omma/software/color_rows.h"
 #include "omma/software/triangle_record.h"
 #include "omma/visibility/finder.h"
 
@@ -49,9 +49,8 @@ class Fragments {
   /// False where all vertices are white.
   bool has_colors() const { return has_colors_; }
 
-  /// Adds a share of the shaded fragments to the pixels of a square of `image`, RGB, at `corner`; `is_first`: to
-  /// nothing.
-  void resolve(float share, bool is_first, FloatImage& image, glm::ivec2 corner) const;
+  /// Adds a share of the shaded fragments to the pixels of a square at `corner`; `is_first`: to nothing.
+  void resolve(float share, bool is_first, const ColorRows& to, glm::ivec2 corner) const;
 
  private:
   static constexpr uint32_t no_fragment = 0xffffffffu;

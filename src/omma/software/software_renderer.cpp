@@ -10,6 +10,7 @@
 #include "omma/base/error.h"
 #include "omma/camera/sampling_pattern.h"
 #include "omma/software/channel_writer.h"
+#include "omma/software/color_rows.h"
 #include "omma/software/shade_fragments.h"
 
 namespace omma {
@@ -39,11 +40,6 @@ class Stopwatch {
   SoftwareStats& stats_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-Image make_image(const ChannelInfo& info, ImageSize size) {
-  if (info.integer) return IntImage(size, info.components, int32_t(info.nothing));
-  return FloatImage(size, info.components, info.nothing);
-}
 
 std::vector<SeenInstance> seen_instances(const Scene& scene, const glm::dmat4& cameraFromWorld) {
   std::vector<SeenInstance> instances;
@@ -80,7 +76,7 @@ std::shared_ptr<const ShadowDepths> SoftwareRenderer::shadow_depths(const Shadow
 }
 
 void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldFromCamera,
-                                  const SoftwareOptions& options, std::optional<int> hidden_object, FloatImage& image,
+                                  const SoftwareOptions& options, std::optional<int> hidden_object, const ColorRows& to,
                                   SoftwareStats& stats, const ChannelWriter* channels) const {
   Stopwatch watch(stats);
   const std::shared_ptr<const Textures> of_scene = textures();
@@ -122,11 +118,12 @@ void SoftwareRenderer::draw_color(const Camera& camera, const glm::dmat4& worldF
         rays_.of(camera, {pattern.begin() + ptrdiff_t(first), pattern.begin() + ptrdiff_t(first + count)});
     watch.add_to("rays");
     finder.each_square(*rays, [&](std::span<const FoundBlock> found) {
+      if (options.stop.stop_requested()) throw Cancelled();
       Fragments& fragments = scratch.local();
       fragments.collect(found);
       const RayBlock& block = *found.front().block;
       shade_fragments(shaded, block, *found.front().border, fragments);
-      fragments.resolve(share, first == 0, image, {block.pixel_x, block.pixel_y});
+      fragments.resolve(share, first == 0, to, {block.pixel_x, block.pixel_y});
       if (channels != nullptr) channels->write(block, found.front().picture);
     });
     watch.add_to("find and shade");
@@ -151,47 +148,70 @@ std::shared_ptr<const Surroundings> SoftwareRenderer::surroundings_of(const Soft
     std::array<FloatImage, 2> maps;
     for (size_t side = 0; side < maps.size(); ++side) {
       SoftwareStats stats;
-      maps[side] = FloatImage(layers.camera.size(), 3);
-      draw_color(layers.camera, layers.worldFromMap[side], plain, key.object, maps[side], stats);
+      Image map = FloatImage(layers.camera.size(), 3);
+      draw_color(layers.camera, layers.worldFromMap[side], plain, key.object,
+                 ColorRows(buffer_of(map), layers.camera.size()), stats);
+      maps[side] = std::get<FloatImage>(std::move(map));
     }
     return std::make_shared<const Surroundings>(layers, maps);
   });
 }
 
 void SoftwareRenderer::draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera,
-                                     const ChannelWriter& writer, SoftwareStats& stats) const {
+                                     const ChannelWriter& writer, const std::stop_token& stop,
+                                     SoftwareStats& stats) const {
   Stopwatch watch(stats);
   const Finder finder(index_->get(), worldFromCamera);
   watch.add_to("place");
   const std::shared_ptr<const RaySource> rays = rays_.of(camera, {glm::dvec2(0.0)});
   watch.add_to("rays");
-  finder.each_block(*rays, Solid::labels,
-                    [&](const RayBlock& block, const BlockPicture& picture) { writer.write(block, picture); });
+  finder.each_block(*rays, Solid::labels, [&](const RayBlock& block, const BlockPicture& picture) {
+    if (stop.stop_requested()) throw Cancelled();
+    writer.write(block, picture);
+  });
   watch.add_to("find");
+}
+
+void SoftwareRenderer::render(const Camera& camera, const glm::dmat4& worldFromCamera, std::span<const Output> outputs,
+                              const SoftwareOptions& options, SoftwareStats* stats) const {
+  if (outputs.empty()) throw CommandError("no channel is asked for");
+  if (options.samples < 1) throw CommandError("{} samples per pixel; 1 or more make a picture", options.samples);
+  check_effects(options.effects);
+  const ImageSize size = camera.size();
+  for (const Output& output : outputs) check(output, size);
+  for (const Output& output : outputs) fill_with_nothing(output, size);
+  SoftwareStats took;
+  const std::vector<SeenInstance> instances = seen_instances(*scene_, glm::inverse(worldFromCamera));
+  const ChannelWriter writer(instances, worldFromCamera, outputs, size);
+  const auto color = std::ranges::find(outputs, Channel::color, &Output::channel);
+  const bool has_color = color != outputs.end(), has_others = outputs.size() > (has_color ? 1u : 0u);
+  // All else is sampled at the pixels' centres, where a single sample lies, too; blended surfaces are solid there.
+  const bool at_once = has_color && has_others && options.samples == 1 && !index_->get().has_blending();
+  if (has_color) {
+    const ChannelWriter* others = at_once ? &writer : nullptr;
+    if (const ColorRows rows(color->to, size); rows.adds_up() || options.samples <= int(most_samples)) {
+      draw_color(camera, worldFromCamera, options, std::nullopt, rows, took, others);
+    } else {
+      Image sum = FloatImage(size, 3);
+      draw_color(camera, worldFromCamera, options, std::nullopt, ColorRows(buffer_of(sum), size), took, others);
+      copy_image(sum, *color);
+    }
+  }
+  if (has_others && !at_once) draw_channels(camera, worldFromCamera, writer, options.stop, took);
+  took.bytes = bytes();
+  if (stats != nullptr) *stats = took;
 }
 
 std::map<Channel, Image> SoftwareRenderer::render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                                   std::span<const Channel> wanted, const SoftwareOptions& options,
                                                   SoftwareStats* stats) const {
-  if (wanted.empty()) throw CommandError("no channel is asked for");
-  if (options.samples < 1) throw CommandError("{} samples per pixel; 1 or more make a picture", options.samples);
-  check_effects(options.effects);
-  SoftwareStats took;
   std::map<Channel, Image> images;
-  for (const Channel channel : wanted) images.emplace(channel, make_image(channel_info(channel), camera.size()));
-  const std::vector<SeenInstance> instances = seen_instances(*scene_, glm::inverse(worldFromCamera));
-  const ChannelWriter writer(instances, worldFromCamera, images);
-  const auto color = images.find(Channel::color);
-  const bool has_color = color != images.end(), has_others = images.size() > (has_color ? 1u : 0u);
-  // All else is sampled at the pixels' centres, where a single sample lies, too; blended surfaces are solid there.
-  const bool at_once = has_color && has_others && options.samples == 1 && !index_->get().has_blending();
-  if (has_color) {
-    draw_color(camera, worldFromCamera, options, std::nullopt, std::get<FloatImage>(color->second), took,
-               at_once ? &writer : nullptr);
+  std::vector<Output> outputs;
+  for (const Channel channel : wanted) {
+    const auto [image, is_new] = images.emplace(channel, make_image(channel, camera.size()));
+    if (is_new) outputs.push_back({channel, buffer_of(image->second)});
   }
-  if (has_others && !at_once) draw_channels(camera, worldFromCamera, writer, took);
-  took.bytes = bytes();
-  if (stats != nullptr) *stats = took;
+  render(camera, worldFromCamera, outputs, options, stats);
   return images;
 }
 

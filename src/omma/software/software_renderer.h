@@ -10,12 +10,13 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "omma/base/shared_cache.h"
 #include "omma/camera/camera.h"
-#include "omma/image/image.h"
+#include "omma/image/pixel_buffer.h"
 #include "omma/scene/scene.h"
 #include "omma/shading/effects.h"
 #include "omma/software/mip_texture.h"
@@ -27,6 +28,7 @@
 namespace omma {
 
 class ChannelWriter;
+class ColorRows;
 
 /// How colour is made.
 struct SoftwareOptions {
@@ -38,6 +40,7 @@ struct SoftwareOptions {
   int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
   std::optional<int> reflect{};  ///< the object whose surfaces show what surrounds it
   int reflection_size = 512;     ///< texels along each of its two maps, 16 or more
+  std::stop_token stop{};        ///< drawing ends soon when it is asked to, by throwing Cancelled
 };
 
 /// What a picture took.
@@ -57,11 +60,14 @@ class SoftwareRenderer {
   /// The scene has changed so, and the index with it. While nothing is drawn.
   void update(const SceneChanges& changes);
 
-  /// The image of every channel asked for, of the camera's size: colour linear, lengths in metres, `normal` and
-  /// `position` in the world's frame, what channels() says where nothing is. `worldFromCamera` is rigid. Runs on all
-  /// cores; the result is the same on any number of them. May be called by several threads at once. Throws CommandError
-  /// for no channel, no sample, effects that check_effects refuses and an object that is not there, MachineError for
-  /// textures and maps too large.
+  /// Writes a picture of the camera's size: colour linear, or encoded where the output is; lengths in metres, `normal`
+  /// and `position` in the world's frame, what channels() says where nothing is. `worldFromCamera` is rigid. No channel
+  /// has two outputs. Runs on all cores; the result is the same on any number of them. May be called by several threads
+  /// at once. Throws CommandError for no output or one that omma::check refuses, no sample, effects that check_effects
+  /// refuses and an object that is not there, MachineError for textures and maps too large.
+  void render(const Camera& camera, const glm::dmat4& worldFromCamera, std::span<const Output> outputs,
+              const SoftwareOptions& options = {}, SoftwareStats* stats = nullptr) const;
+  /// The same into images of its own.
   std::map<Channel, Image> render(const Camera& camera, const glm::dmat4& worldFromCamera,
                                   std::span<const Channel> wanted, const SoftwareOptions& options = {},
                                   SoftwareStats* stats = nullptr) const;
@@ -87,10 +93,10 @@ class SoftwareRenderer {
   std::shared_ptr<const Surroundings> surroundings_of(const SoftwareOptions& options) const;
   /// Without `hidden_object`; writes what the first samples find to `channels`, too, if there are any.
   void draw_color(const Camera& camera, const glm::dmat4& worldFromCamera, const SoftwareOptions& options,
-                  std::optional<int> hidden_object, FloatImage& image, SoftwareStats& stats,
+                  std::optional<int> hidden_object, const ColorRows& to, SoftwareStats& stats,
                   const ChannelWriter* channels = nullptr) const;
   void draw_channels(const Camera& camera, const glm::dmat4& worldFromCamera, const ChannelWriter& writer,
-                     SoftwareStats& stats) const;
+                     const std::stop_token& stop, SoftwareStats& stats) const;
   size_t bytes() const;
 
   const Scene* scene_;

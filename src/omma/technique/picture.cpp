@@ -25,6 +25,13 @@ Show show_from_name(const std::string& name) {
   throw CommandError("{}", unknown_name("thing to show", name, names));
 }
 
+std::vector<int> refinement(int samples) {
+  std::vector<int> counts;
+  for (int count = 1; count < samples; count *= 4) counts.push_back(count);
+  counts.push_back(samples);
+  return counts;
+}
+
 std::vector<Effect> effects_of(const RenderOptions& options) {
   std::vector<Effect> effects = options.effects;
   if (options.show.contains(Show::edges)) effects.push_back(make_effect("wireframe:width_px=2.5,color=white"));

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,7 +46,12 @@ struct RenderOptions {
   int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
   std::optional<int> reflect{};  ///< the object whose surfaces show what surrounds it
   int reflection_size = 512;     ///< texels along each of its two maps, 16 or more
+  std::stop_token stop{};        ///< when it is asked to stop, drawing ends soon, by throwing Cancelled
 };
+
+/// How many samples a pixel has in a picture that gets better while nothing moves: 1, 4, 16, … up to `samples`. Each is
+/// the picture that so many samples give, and all together take a third longer than the last alone.
+std::vector<int> refinement(int samples);
 
 /// The effects asked for, then those that show something. Throws CommandError for a chain that check_effects refuses.
 std::vector<Effect> effects_of(const RenderOptions& options);
