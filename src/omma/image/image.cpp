@@ -34,6 +34,12 @@ Channel channel_from_name(const std::string& name) {
   throw CommandError("{}", unknown_name("channel", name, names));
 }
 
+std::string size_refusal(ImageSize size, const Limits& limits) {
+  const auto pixels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
+  if (pixels <= limits.picture_pixels) return {};
+  return fmt::format("{} x {} pixels: {}", size.width, size.height, limit_text(limits, &Limits::picture_pixels));
+}
+
 ImageSize image_size(const Image& image) {
   return std::visit([](const auto& typed) { return typed.size; }, image);
 }

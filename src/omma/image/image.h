@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "omma/base/limits.h"
 #include "omma/math/ray.h"
 
 namespace omma {
@@ -59,6 +60,9 @@ struct ImageOf {
 using FloatImage = ImageOf<float>;
 using IntImage = ImageOf<int32_t>;
 using Image = std::variant<FloatImage, IntImage>;
+
+/// Why a picture of this size is not made, "40000 x 40000 pixels: the limit …"; empty where it is.
+std::string size_refusal(ImageSize size, const Limits& limits);
 
 ImageSize image_size(const Image& image);
 int image_components(const Image& image);
