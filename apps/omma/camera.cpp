@@ -17,6 +17,7 @@
 #include "omma/camera/fit.h"
 #include "omma/camera/pieces/approximate.h"
 #include "omma/image/npy.h"
+#include "reading.h"
 
 namespace omma::tool {
 namespace {
@@ -30,6 +31,7 @@ struct Options {
   std::string camera;
   Text size, rays, model, output, format, pieces, tolerance, count;
   std::vector<std::string> project, unproject;
+  ReadingOptions reading;
   bool json = false;
 };
 
@@ -190,7 +192,7 @@ void run(const Options& options) {
   }
   std::optional<ImageSize> size;
   if (options.size) size = size_of("--size", *options.size);
-  Camera camera = make_camera(options.camera, size);
+  Camera camera = make_camera(options.camera, size, read_options_of(options.reading).limits);
   std::optional<CameraFit> fit;
   if (options.model) {
     fit = convert(camera, *options.model);
@@ -262,6 +264,7 @@ void add_camera(const Command& tool) {
                   "The file's format where its extension leaves a choice: opencv, ros, kalibr, basalt, colmap, "
                   "nerfstudio")
       .type_name("FORMAT");
+  add_limits(command, options->reading);
   command.add_flag("--json", options->json, "Print JSON");
   command.footer(
       "Examples:\n"

@@ -15,6 +15,7 @@
 #include "omma/image/read.h"
 #include "omma/image/shift.h"
 #include "omma/image/write.h"
+#include "reading.h"
 
 namespace omma::tool {
 namespace {
@@ -62,6 +63,7 @@ struct Options {
   std::string a, b;
   Text metric, diff;
   std::array<Text, metric_count> limits;
+  ReadingOptions reading;
   bool json = false, raw = false;
 };
 
@@ -172,7 +174,8 @@ void run(const Options& options) {
   const auto limits = limits_of(options);
   if (options.diff) check_image_output(*options.diff, Channel::color);
   const Scale scale = scale_of(options);
-  const Image a = read_image(options.a), b = read_image(options.b);
+  const Limits limits_of_files = read_options_of(options.reading).limits;
+  const Image a = read_image(options.a, limits_of_files), b = read_image(options.b, limits_of_files);
   Comparison comparison{.difference = compare_images(a, b, scale), .shift = {}};
   if (wants_shift(options)) comparison.shift = image_shift(a, b, scale);
   const std::vector<const Metric*> chosen = metrics_of(options, comparison);
@@ -194,6 +197,7 @@ void add_compare(const Command& tool) {
       .type_name("NAMES");
   command.add_flag("--json", options->json, "Print JSON");
   command.add_flag("--raw", options->raw, "Compare 8-bit colour in linear light, not as a screen shows it");
+  add_limits(command, options->reading);
   command.add_option("--diff", options->diff, "Write |A - B|, its largest value white").type_name("FILE");
   for (size_t i = 0; i < metric_count; ++i) {
     command.add_option(metrics[i].limit_option, options->limits[i], metrics[i].limit_description)

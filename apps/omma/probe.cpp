@@ -12,6 +12,7 @@
 #include "omma/scene/object.h"
 #include "omma/technique/registry.h"
 #include "progress.h"
+#include "reading.h"
 
 namespace omma::tool {
 namespace {
@@ -22,6 +23,7 @@ using Json = nlohmann::ordered_json;
 struct ProbeCommand {
   std::string scene, technique = "visibility";
   Text at, normal, points, vertices, size, max_distance, offset, background, shadows, shadow_size, time, output;
+  ReadingOptions reading;
   bool json = false;
 };
 
@@ -66,26 +68,27 @@ void require_one_place(const ProbeCommand& command) {
     throw CommandError("a list of points needs a file to go to: -o FILE.npy or FILE.ply");
 }
 
-ProbeMesh places_of(const ProbeCommand& command, const std::optional<glm::dvec3>& normal) {
+ProbeMesh places_of(const ProbeCommand& command, const std::optional<glm::dvec3>& normal, const Limits& limits) {
   ProbeMesh places;
   if (command.at) {
     places.points.push_back({vector3_of("--at", *command.at), *normal});
     check_probe_point(places.points.front());
   }
-  if (command.points) places.points = load_probe_points(*command.points, normal);
+  if (command.points) places.points = load_probe_points(*command.points, normal, limits);
   return places;
 }
 
 void run(const ProbeCommand& command) {
   require_one_place(command);
   const ProbeOptions options = probe_options_of(command);
+  const ReadOptions reading = read_options_of(command.reading);
   std::optional<glm::dvec3> normal;
   if (command.normal) normal = vector3_of("--normal", *command.normal);
   if (normal && *normal == glm::dvec3(0.0)) throw CommandError("--normal {}: has no direction", *command.normal);
   if (command.output) check_probe_output(*command.output);
-  ProbeMesh places = places_of(command, normal);
+  ProbeMesh places = places_of(command, normal, reading.limits);
 
-  Scene scene = load_scene(command.scene);
+  Scene scene = load_scene(command.scene, reading);
   if (command.time) set_time(scene, parse_number("--time", *command.time));
   if (command.vertices) places = object_mesh(scene, find_object(scene, *command.vertices));
   const PreparedScene prepared(Device(), std::move(scene));
@@ -145,6 +148,8 @@ void add_probe(const Command& tool) {
       "Radiance where nothing is: a sky (default) or linear RGB");
   add(how, "--shadows", "KIND", options->shadows, "Lights cast shadows: paraboloid or cube maps, default off");
   add(how, "--shadow-size", "N", options->shadow_size, "Texels along a shadow map, default 1024");
+  add_root(command, options->reading);
+  add_limits(command, options->reading);
   const char* result = "Result";
   add(result, "-o,--output", "FILE", options->output, ".npy (columns: see docs/probes.md) or .ply");
   command.add_flag("--json", options->json, "For --at: print JSON").group(result);

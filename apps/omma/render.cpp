@@ -20,6 +20,7 @@
 #include "omma/technique/registry.h"
 #include "outputs.h"
 #include "progress.h"
+#include "reading.h"
 #include "stats.h"
 #include "view.h"
 
@@ -34,6 +35,7 @@ struct Options {
   Text size, samples, filter, background, face_size, tile, tolerance, pieces, shadows, shadow_size, reflect,
       reflection_size, stats;
   ViewOptions view;
+  ReadingOptions reading;
   std::vector<std::string> outputs, effects, show;
   bool overwrite = false;
 };
@@ -79,8 +81,9 @@ class Job {
         camera_text_(options.camera),
         outputs_(parse_outputs(options.outputs)),
         render_options_(render_options_of(options)),
-        view_(options.view),
-        camera_(first_camera(options.camera, size_option(options), view_)),
+        reading_(read_options_of(options.reading)),
+        view_(options.view, reading_),
+        camera_(first_camera(options.camera, size_option(options), view_, reading_.limits)),
         reflect_(options.reflect),
         stats_path_(options.stats),
         overwrite_(options.overwrite) {
@@ -118,14 +121,16 @@ class Job {
     return size_of("--size", *options.size);
   }
 
-  static Camera first_camera(const std::string& text, std::optional<ImageSize> size, const View& view) {
-    return make_camera(changes_with_frame(text) ? text_of_frame(text, view.frames().front().number) : text, size);
+  static Camera first_camera(const std::string& text, std::optional<ImageSize> size, const View& view,
+                             const Limits& limits) {
+    return make_camera(changes_with_frame(text) ? text_of_frame(text, view.frames().front().number) : text, size,
+                       limits);
   }
 
   /// A camera texture that is a sequence of files has one for each frame.
   Camera camera_of(const Frame& frame) const {
     if (!changes_with_frame(camera_text_)) return camera_;
-    return make_camera(text_of_frame(camera_text_, frame.number), camera_.size());
+    return make_camera(text_of_frame(camera_text_, frame.number), camera_.size(), reading_.limits);
   }
 
   /// Fails before the first frame is drawn where a later one would find no file.
@@ -189,7 +194,7 @@ class Job {
   void render(const std::vector<Frame>& frames, JobStats& stats) {
     require_camera_files(frames);
     const auto begin = std::chrono::steady_clock::now();
-    Scene scene = load_scene(scene_text_);
+    Scene scene = load_scene(scene_text_, reading_);
     if (view_.names_time() && scene.animations.empty()) {
       warn(fmt::format("{}: has no animation, the time changes nothing", scene_text_));
     }
@@ -291,6 +296,7 @@ class Job {
   std::vector<OutputFile> outputs_;
   std::vector<Channel> channels_;
   RenderOptions render_options_;
+  ReadOptions reading_;
   View view_;
   Camera camera_;
   Text reflect_;  ///< the object that reflects
@@ -379,6 +385,8 @@ void add_render(const Command& tool) {
   add(time, "--fps", "F", options->view.fps, "Pictures a second of animation, default 30");
   command.add_flag("--overwrite", options->overwrite, "Render the frames of a sequence that are there already, too")
       .group(time);
+  add_root(command, options->reading);
+  add_limits(command, options->reading);
   add("Report", "--stats", "FILE", options->stats, "Write times, triangles, bytes and techniques as JSON");
   command.footer(
       channel_help() +

@@ -24,11 +24,11 @@ std::optional<double> optional_time(const Text& text) {
 }
 
 /// Camera nodes of a glTF file as poses; everything else is a file of poses.
-std::vector<NamedPose> poses_of(const std::string& file) {
+std::vector<NamedPose> poses_of(const std::string& file, const ReadOptions& reading) {
   const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension != ".gltf" && extension != ".glb") return load_poses(file);
+  if (extension != ".gltf" && extension != ".glb") return load_poses(file, reading.limits);
   std::vector<NamedPose> poses;
-  for (const SceneCamera& camera : load_scene_file(file).cameras) {
+  for (const SceneCamera& camera : load_scene_file(file, reading).cameras) {
     poses.push_back({camera.name, camera.worldFromCamera, std::nullopt});
   }
   if (poses.empty()) throw InputError("{}: has no camera node to take a pose from", file);
@@ -39,7 +39,7 @@ std::string text_of(const glm::dvec3& v) { return fmt::format("{:.6g},{:.6g},{:.
 
 }  // namespace
 
-View::View(const ViewOptions& options)
+View::View(const ViewOptions& options, const ReadOptions& reading)
     : from_(optional_vector3("--from", options.from)),
       to_(optional_vector3("--to", options.to)),
       up_(optional_vector3("--up", options.up)),
@@ -55,14 +55,14 @@ View::View(const ViewOptions& options)
     throw CommandError("--pose and --frames both say how many pictures there are; give one of them");
   }
   if (options.pose) {
-    set_frames_from_poses(*options.pose, options.time);
+    set_frames_from_poses(*options.pose, options.time, reading);
   } else {
     set_frames_from_time(options);
   }
 }
 
-void View::set_frames_from_poses(const std::string& file, const Text& time) {
-  const std::vector<NamedPose> poses = poses_of(file);
+void View::set_frames_from_poses(const std::string& file, const Text& time, const ReadOptions& reading) {
+  const std::vector<NamedPose> poses = poses_of(file, reading);
   const std::optional<double> fixed_time = optional_time(time);
   const double begin = poses.front().time.value_or(0.0);
   for (const NamedPose& pose : poses) {

@@ -29,7 +29,7 @@ class View {
  public:
   /// Reads a pose file, if one is named. Throws CommandError for options that make no sense or contradict each other,
   /// InputError for the pose file.
-  explicit View(const ViewOptions& options);
+  View(const ViewOptions& options, const ReadOptions& reading);
 
   /// At least one.
   const std::vector<Frame>& frames() const { return frames_; }
@@ -50,7 +50,7 @@ class View {
   std::string unspoken_choice(const Scene& scene) const;
 
  private:
-  void set_frames_from_poses(const std::string& file, const Text& time);
+  void set_frames_from_poses(const std::string& file, const Text& time, const ReadOptions& reading);
   void set_frames_from_time(const ViewOptions& options);
   bool needs_default(const Scene& scene) const;
   bool from_scene() const { return !from_ && !to_ && !up_; }

@@ -47,5 +47,14 @@ TEST_F(CameraFileCommand, RefusesWhatLeavesAChoiceOrHasNoPlace) {
   expect_refusal({"camera", "broken.yaml"}, 3, {"broken.yaml", "cam0", "distortion_model"});
 }
 
+/// A value takes sixty times as much memory as its text.
+TEST_F(CameraFileCommand, MillionsOfValuesAreRefused) {
+  std::string text = "[1";
+  for (int i = 0; i < 1000; ++i) text += ",1";
+  write("ones.json", text);
+  expect_refusal({"camera", "ones.json", "--limit", "document_values=1000"}, 3,
+                 {"ones.json:1:", "more than 1000 values", "--limit document_values=N"});
+}
+
 }  // namespace
 }  // namespace omma

@@ -91,6 +91,12 @@ TEST_F(CompareCommand, DifferenceIsWrittenEvenBeyondALimit) {
   EXPECT_EQ(difference.values[3], 0.0f);
 }
 
+TEST_F(CompareCommand, PicturesBeyondTheLimitAreRefused) {
+  expect_refusal({"compare", "a.png", "b.png", "--limit", "picture_pixels=10"}, 3,
+                 {"a.png", "the limit 'picture_pixels' is 10"});
+  expect_refusal({"compare", "a.png", "b.png", "--limit", "picture_pixels"}, 2, {"NAME=N"});
+}
+
 TEST_F(CompareCommand, WhatCannotBeComparedIsRefused) {
   write_image(file("small.npy"), FloatImage({5, 5}, 3), Channel::color);
   write("broken.png", "no picture");

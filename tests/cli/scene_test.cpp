@@ -85,6 +85,35 @@ TEST_F(SceneFile, MissingTextureIsAWarning) {
   EXPECT_NE(result.err.find("warning"), std::string::npos);
 }
 
+TEST_F(SceneFile, NamesFilesWithinItsFolderOrTheRoot) {
+  std::filesystem::create_directory(file("scene"));
+  write("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd a.png\n");
+  write("scene/a.obj", "mtllib ../a.mtl\nusemtl m\n" + two_triangles_obj);
+  std::vector<std::string> words = render("scene/a.obj");
+  const ToolResult without = run(words);
+  EXPECT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_NE(without.err.find("a.mtl: lies outside of the folder 'scene'; --root DIR"), std::string::npos)
+      << without.err;
+  words.insert(words.end(), {"--root", "."});
+  const ToolResult with = run(words);
+  EXPECT_EQ(with.exit_code, 0) << with.err;
+  EXPECT_EQ(with.err.find("lies outside"), std::string::npos) << with.err;
+  words.back() = "nowhere";
+  expect_refusal(words, 2, {"--root nowhere", "no such folder"});
+}
+
+TEST_F(SceneFile, BeyondTheLimitsIsRefusedAndLimitsAreRaised) {
+  write("a.obj", two_triangles_obj);
+  std::vector<std::string> words = render("a.obj");
+  words.insert(words.end(), {"--limit", "scene_triangles=1"});
+  expect_refusal(words, 3, {"a.obj", "the limit 'scene_triangles' is 1; --limit scene_triangles=N"});
+  words.back() = "scene_triangles=2";
+  EXPECT_EQ(run(words).exit_code, 0);
+  words.back() = "scene_triangle=2";
+  std::filesystem::remove(file("a.png"));
+  expect_refusal(words, 2, {"did you mean 'scene_triangles'"});
+}
+
 TEST_F(SceneFile, TimeOfASceneWithoutAnimationIsAWarning) {
   std::vector<std::string> words = render("facade");
   words.insert(words.end(), {"--time", "2"});

@@ -49,10 +49,10 @@ TEST(ImageEncode, PngOfAnySizeComesBack) {
         ASSERT_EQ(back.info.size, size);
         ASSERT_EQ(back.info.components, components);
         if (bits == 8) {
-          EXPECT_TRUE(std::get<std::vector<uint8_t>>(back.samples) == bytes) << size.width;
+          EXPECT_TRUE(std::ranges::equal(std::get<SampleVector<uint8_t>>(back.samples), bytes)) << size.width;
           continue;
         }
-        const auto& numbers = std::get<std::vector<uint16_t>>(back.samples);
+        const auto& numbers = std::get<SampleVector<uint16_t>>(back.samples);
         bool same = numbers.size() * 2 == bytes.size();
         for (size_t i = 0; i < numbers.size(); ++i) same &= numbers[i] == bytes[2 * i] * 256 + bytes[2 * i + 1];
         EXPECT_TRUE(same) << size.width;

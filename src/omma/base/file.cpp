@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -22,8 +23,9 @@ namespace {
 
 constexpr std::string_view unfinished = ".part";
 
-/// Of a file that is read at once: a map of 8192 x 8192 rays in double precision is 1.5 GiB.
-constexpr size_t most_bytes = size_t{4} << 30;
+[[noreturn]] void refuse_size(const fs::path& path, const Limits& limits, size_t Limits::*bytes) {
+  throw InputError("{}: is larger than {} bytes: {}", path.string(), limits.*bytes, limit_text(limits, bytes));
+}
 
 /// Which process writes a file that is not whole yet: PROCESS of `.STEM.PROCESS.part.EXTENSION`.
 std::optional<int> writer_of(std::string_view name) {
@@ -42,32 +44,48 @@ std::optional<int> writer_of(std::string_view name) {
 
 }  // namespace
 
-std::string read_file(const fs::path& path) {
+void require_readable(const fs::path& path, const Limits& limits, size_t Limits::*bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError("{}: no such file", path.string());
   if (fs::is_directory(status)) throw InputError("{}: is a folder, a file is expected", path.string());
   // Opening a pipe that nobody writes to would never end.
   if (!fs::is_regular_file(status)) throw InputError("{}: is a pipe or a device, a file is expected", path.string());
+  const uintmax_t size = fs::file_size(path, error);
+  if (!error && size > limits.*bytes) refuse_size(path, limits, bytes);
+}
+
+std::string read_file(const fs::path& path, const Limits& limits, size_t Limits::*bytes) {
+  require_readable(path, limits, bytes);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError("{}: cannot be read ({})", path.string(), std::strerror(errno));
   std::string text;
   // What a file system calls its size is where it most likely ends: some say 0 of what they make up while it is read.
+  std::error_code error;
   size_t room = static_cast<size_t>(fs::file_size(path, error)) + 1;
   if (error) room = 1;
   for (size_t end = 0;; room = 1U << 16) {
-    if (end + room > most_bytes + 1) {
-      throw InputError("{}: is larger than {} GiB, the most that is read", path.string(), most_bytes >> 30);
-    }
     text.resize(end + room);
     stream.read(text.data() + end, static_cast<std::streamsize>(room));
     end += static_cast<size_t>(stream.gcount());
     if (stream.bad()) throw InputError("{}: cannot be read ({})", path.string(), std::strerror(errno));
+    if (end > limits.*bytes) refuse_size(path, limits, bytes);
     if (end < text.size()) {
       text.resize(end);
       return text;
     }
   }
+}
+
+bool lies_within(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const auto followed = [&](const fs::path& name) { return fs::weakly_canonical(fs::absolute(name, error), error); };
+  const fs::path inner = followed(path);
+  if (error) return false;
+  fs::path outer = followed(folder.empty() ? fs::path(".") : folder);
+  if (error) return false;
+  if (!outer.has_filename()) outer = outer.parent_path();  // "/"
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
 void require_writable(const fs::path& path) {

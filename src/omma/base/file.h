@@ -1,4 +1,4 @@
-// Files that are there whole or not at all.
+// Files that are read whole, and that are there whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,21 @@
 #include <iosfwd>
 #include <string>
 
+#include "omma/base/limits.h"
+
 namespace omma {
 
-/// The whole file as text. Throws InputError when it is missing, a folder, a pipe, a device, unreadable or larger than
-/// 4 GiB.
-std::string read_file(const std::filesystem::path& path);
+/// Throws InputError when there is no file of this name, when it is a folder, a pipe or a device, and when it is larger
+/// than a limit of bytes. Whoever lets a library open a file asks this first.
+void require_readable(const std::filesystem::path& path, const Limits& limits = {},
+                      size_t Limits::*bytes = &Limits::file_bytes);
+
+/// The whole file as text. Throws InputError as require_readable does, and when it cannot be read.
+std::string read_file(const std::filesystem::path& path, const Limits& limits = {},
+                      size_t Limits::*bytes = &Limits::file_bytes);
+
+/// Whether `path` lies within `folder` once links and `..` are followed. What does not exist is taken by its name.
+bool lies_within(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 /// Throws CommandError when `path` could not be created: its folder is missing, or is no folder.
 void require_writable(const std::filesystem::path& path);

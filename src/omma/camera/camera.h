@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "omma/base/limits.h"
 #include "omma/camera/lens_model.h"
 #include "omma/camera/pieces/piece_set.h"
 #include "omma/math/ray.h"
@@ -84,23 +85,28 @@ class Camera {
 ///
 /// `size` is the image asked for, if any. A camera with its own size (`width=`, `height=`) is scaled to it, which needs
 /// the same shape; a ray map and pieces have the size they have. Without either the image is 1600 x 1200.
-/// Throws CommandError for the text, InputError for a file.
-Camera make_camera(std::string_view text, std::optional<ImageSize> size = std::nullopt);
+/// Throws CommandError for the text, InputError for a file, one beyond the limits too.
+Camera make_camera(std::string_view text, std::optional<ImageSize> size = std::nullopt, const Limits& limits = {});
 
 /// A text from which make_camera makes the same camera: focal lengths and principal point in pixels, image size, and
 /// whatever differs from the lens's defaults; for a ray map or pieces their file. Throws CommandError where there is
 /// none.
 std::string to_text(const Camera& camera);
 
-/// No image has more pixels along a side.
+/// No image has more pixels along a side, nor more in all: colour in floats takes 12 GiB then.
 inline constexpr int max_image_side = 65536;
+inline constexpr int64_t max_image_pixels = int64_t{1} << 30;
 
-/// Throws CommandError unless both sides lie within 1 and max_image_side. `what` begins the message.
+/// Why there is no image of this size, and what is accepted; empty where there is.
+std::string image_size_refusal(ImageSize size);
+
+/// Throws CommandError with that reason. `what` begins the message.
 void check_image_size(std::string_view what, ImageSize size);
 
 /// The ray map of a `.npy` file (float32 or float64, H x W x 3, either byte order, C or Fortran order): for each
 /// pixel's centre, rows from the top, a direction in the camera frame (x right, y up, looking along -z). Directions
-/// need not be of unit length; zero or what is not finite means no ray. Throws InputError for any other content.
-RayMap load_ray_map(const std::filesystem::path& path);
+/// need not be of unit length; zero or what is not finite means no ray. Throws InputError for any other content, and
+/// for more than the limit's picture_pixels.
+RayMap load_ray_map(const std::filesystem::path& path, const Limits& limits = {});
 
 }  // namespace omma

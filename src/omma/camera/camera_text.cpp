@@ -280,22 +280,24 @@ Camera make_lens_camera(const LensModel& model, Spec spec, std::optional<ImageSi
 
 }  // namespace
 
-void check_image_size(std::string_view what, ImageSize size) {
-  for (const int side : {size.width, size.height}) {
-    if (side < 1 || side > max_image_side) {
-      throw CommandError("{}: an image of {} x {} pixels; 1 to {} a side is accepted", what, size.width, size.height,
-                         max_image_side);
-    }
-  }
+std::string image_size_refusal(ImageSize size) {
+  const auto within = [](int side) { return side >= 1 && side <= max_image_side; };
+  if (within(size.width) && within(size.height) && int64_t{size.width} * size.height <= max_image_pixels) return {};
+  return fmt::format("an image of {} x {} pixels; 1 to {} a side is accepted, up to {} in all", size.width, size.height,
+                     max_image_side, max_image_pixels);
 }
 
-Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
+void check_image_size(std::string_view what, ImageSize size) {
+  if (const std::string why = image_size_refusal(size); !why.empty()) throw CommandError("{}: {}", what, why);
+}
+
+Camera make_camera(std::string_view text, std::optional<ImageSize> size, const Limits& limits) {
   if (size) check_image_size("size", *size);
   if (const DeformationInfo* deformation = find_deformation(text.substr(0, text.find(':')))) {
-    return deformation->make(parse_spec(text), size);
+    return deformation->make(parse_spec(text), size, limits);
   }
   if (text.ends_with(".npy")) {
-    RayMap map = load_ray_map(text);
+    RayMap map = load_ray_map(text, limits);
     if (size && *size != map.size) {
       throw CommandError("{}: the ray map has {} x {} pixels and {} x {} was asked for; leave the size away", text,
                          map.size.width, map.size.height, size->width, size->height);
@@ -303,7 +305,7 @@ Camera make_camera(std::string_view text, std::optional<ImageSize> size) {
     return Camera(std::move(map));
   }
   if (const auto file = camera_file_text(text)) {
-    const Camera camera = load_camera(*file);
+    const Camera camera = load_camera(*file, limits);
     if (!size || *size == camera.size()) return camera;
     if (!camera.lens()) {
       throw CommandError(

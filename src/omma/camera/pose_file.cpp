@@ -1,9 +1,10 @@
 #include "omma/camera/pose_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <sstream>
+#include <string_view>
 
 #include "omma/base/error.h"
 #include "omma/base/file.h"
@@ -15,18 +16,29 @@ constexpr size_t tum_fields = 8;     // time, position, quaternion
 constexpr size_t colmap_fields = 9;  // id, quaternion, translation, camera; then the name
 
 struct Line {
-  std::string text;
+  std::string_view text;
   size_t number = 0;
 };
 
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream stream(text);
+constexpr std::string_view blanks = " \t\v\f\r";
+
+/// Calls `visit` for each word.
+template <typename Visit>
+void for_each_word(std::string_view text, const Visit& visit) {
+  for (size_t begin = text.find_first_not_of(blanks); begin != std::string_view::npos;) {
+    const size_t end = std::min(text.find_first_of(blanks, begin), text.size());
+    visit(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(blanks, end);
+  }
+}
+
+std::vector<std::string> words(std::string_view text) {
   std::vector<std::string> result;
-  for (std::string word; stream >> word;) result.push_back(word);
+  for_each_word(text, [&](std::string_view word) { result.emplace_back(word); });
   return result;
 }
 
-std::optional<double> number(const std::string& word) {
+std::optional<double> number(std::string_view word) {
   double value = 0.0;
   const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
   const char* end = word.data() + word.size();
@@ -37,30 +49,27 @@ std::optional<double> number(const std::string& word) {
 
 class PoseReader {
  public:
-  explicit PoseReader(const std::filesystem::path& path) : path_(path.string()) {
-    std::istringstream stream(read_file(path));
-    size_t line_number = 0;
-    for (std::string text; std::getline(stream, text);) {
-      ++line_number;
-      if (text.ends_with('\r')) text.pop_back();
-      if (!text.starts_with('#')) lines_.push_back({text, line_number});
-    }
+  PoseReader(const std::filesystem::path& path, const Limits& limits)
+      : path_(path.string()), text_(read_file(path, limits)), limits_(limits) {
+    next();
   }
 
   std::vector<NamedPose> read() {
     skip_blank();
-    if (at_ == lines_.size()) throw InputError("{}: holds no pose", path_);
-    const size_t fields = words(lines_[at_].text).size();
+    if (at_end_) throw InputError("{}: holds no pose", path_);
+    const size_t fields = pose_words().size();
     if (fields != tum_fields && fields <= colmap_fields) {
-      fail(lines_[at_],
-           fmt::format("{} fields; a TUM trajectory has the 8 fields 'time tx ty tz qx qy qz qw', COLMAP's "
-                       "images.txt the 10 fields 'id qw qx qy qz tx ty tz camera name'",
-                       fields));
+      fail(line_, fmt::format("{} fields; a TUM trajectory has the 8 fields 'time tx ty tz qx qy qz qw', COLMAP's "
+                              "images.txt the 10 fields 'id qw qx qy qz tx ty tz camera name'",
+                              fields));
     }
     std::vector<NamedPose> poses;
-    for (; at_ < lines_.size(); skip_blank()) {
-      poses.push_back(fields == tum_fields ? read_tum(lines_[at_]) : read_colmap(lines_[at_]));
-      ++at_;
+    for (; !at_end_; skip_blank()) {
+      if (poses.size() == limits_.poses) {
+        fail(line_, fmt::format("more than {} poses: {}", limits_.poses, limit_text(limits_, &Limits::poses)));
+      }
+      poses.push_back(fields == tum_fields ? read_tum(line_) : read_colmap(line_));
+      next();
       if (fields != tum_fields) skip_points();
     }
     return poses;
@@ -71,8 +80,28 @@ class PoseReader {
     throw InputError("{}:{}: {}", path_, line.number, why);
   }
 
+  /// The next line that is no comment.
+  void next() {
+    do {
+      at_end_ = begin_ >= text_.size();
+      if (at_end_) return;
+      const size_t end = std::min(text_.find('\n', begin_), text_.size());
+      line_ = {std::string_view(text_).substr(begin_, end - begin_), line_.number + 1};
+      begin_ = end + 1;
+    } while (line_.text.starts_with('#'));
+  }
+
   void skip_blank() {
-    while (at_ < lines_.size() && words(lines_[at_].text).empty()) ++at_;
+    while (!at_end_ && line_.text.find_first_not_of(blanks) == std::string_view::npos) next();
+  }
+
+  /// The words of a line that should be a pose.
+  std::vector<std::string> pose_words() const {
+    constexpr size_t longest = 65536;
+    if (line_.text.size() > longest) {
+      fail(line_, fmt::format("has {} characters, {} are accepted", line_.text.size(), longest));
+    }
+    return words(line_.text);
   }
 
   // The first `count` words as numbers.
@@ -101,7 +130,7 @@ class PoseReader {
   }
 
   NamedPose read_tum(const Line& line) const {
-    const std::vector<std::string> all = words(line.text);
+    const std::vector<std::string> all = pose_words();
     if (all.size() != tum_fields) {
       fail(line, fmt::format("{} fields, the 8 fields 'time tx ty tz qx qy qz qw' are expected", all.size()));
     }
@@ -112,7 +141,7 @@ class PoseReader {
   }
 
   NamedPose read_colmap(const Line& line) const {
-    const std::vector<std::string> all = words(line.text);
+    const std::vector<std::string> all = pose_words();
     if (all.size() <= colmap_fields) {
       fail(line, fmt::format("{} fields, the 10 fields 'id qw qx qy qz tx ty tz camera name' are expected; each image "
                              "takes two lines, the second one, its points, may be empty",
@@ -129,21 +158,31 @@ class PoseReader {
 
   // The line after an image's own: `x y point` again and again, or nothing.
   void skip_points() {
-    if (at_ == lines_.size()) return;
-    const std::vector<std::string> all = words(lines_[at_].text);
-    if (all.size() % 3 != 0 || (!all.empty() && !number(all.back()))) {
-      fail(lines_[at_], "the points 'x y point …' of the image above are expected, or an empty line");
+    if (at_end_) return;
+    size_t count = 0;
+    std::string_view last;
+    for_each_word(line_.text, [&](std::string_view word) {
+      ++count;
+      last = word;
+    });
+    if (count % 3 != 0 || (count > 0 && !number(last))) {
+      fail(line_, "the points 'x y point …' of the image above are expected, or an empty line");
     }
-    ++at_;
+    next();
   }
 
   std::string path_;
-  std::vector<Line> lines_;
-  size_t at_ = 0;
+  std::string text_;
+  const Limits& limits_;
+  size_t begin_ = 0;  ///< of the line after this one
+  Line line_;
+  bool at_end_ = false;
 };
 
 }  // namespace
 
-std::vector<NamedPose> load_poses(const std::filesystem::path& path) { return PoseReader(path).read(); }
+std::vector<NamedPose> load_poses(const std::filesystem::path& path, const Limits& limits) {
+  return PoseReader(path, limits).read();
+}
 
 }  // namespace omma

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "omma/base/limits.h"
+
 namespace omma {
 
 struct NamedPose {
@@ -24,7 +26,7 @@ struct NamedPose {
 ///
 /// In both, lines that begin with # are comments. Cameras are turned into Omma's frame; the world stays the file's own.
 /// Throws InputError with file and line for anything else, for a file without poses, and for quaternions whose length
-/// is not 1 within a hundredth.
-std::vector<NamedPose> load_poses(const std::filesystem::path& path);
+/// is not 1 within a hundredth, and for more poses than the limit.
+std::vector<NamedPose> load_poses(const std::filesystem::path& path, const Limits& limits = {});
 
 }  // namespace omma

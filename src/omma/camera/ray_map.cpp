@@ -6,6 +6,7 @@
 
 #include "omma/base/error.h"
 #include "omma/camera/camera.h"
+#include "omma/image/image.h"
 #include "omma/image/npy.h"
 
 namespace omma {
@@ -33,9 +34,9 @@ std::optional<glm::dvec3> RayMap::unproject(const glm::dvec2& pixel) const {
   return sum / length;
 }
 
-RayMap load_ray_map(const std::filesystem::path& path) {
+RayMap load_ray_map(const std::filesystem::path& path, const Limits& limits) {
   const std::string name = path.string();
-  const NpyArray<double> array = read_npy<double>(path);
+  const NpyArray<double> array = read_npy<double>(path, limits);
   if (array.shape.size() != 3 || array.shape[2] != 3) {
     throw InputError("{}: the array is ({}), a ray map is height x width x 3", name, fmt::join(array.shape, ", "));
   }
@@ -45,10 +46,11 @@ RayMap load_ray_map(const std::filesystem::path& path) {
                        array.shape[axis], max_image_side);
     }
   }
+  const ImageSize size{static_cast<int>(array.shape[1]), static_cast<int>(array.shape[0])};
+  if (const std::string why = size_refusal(size, limits); !why.empty()) throw InputError("{}: {}", name, why);
 
-  RayMap map{.size = {static_cast<int>(array.shape[1]), static_cast<int>(array.shape[0])},
-             .directions = std::vector<glm::vec3>(array.values.size() / 3, glm::vec3(0.0F)),
-             .source = name};
+  RayMap map{
+      .size = size, .directions = std::vector<glm::vec3>(array.values.size() / 3, glm::vec3(0.0F)), .source = name};
   bool any = false;
   for (size_t i = 0; i < map.directions.size(); ++i) {
     const glm::dvec3 direction(array.values[3 * i], array.values[3 * i + 1], array.values[3 * i + 2]);

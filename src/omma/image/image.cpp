@@ -40,6 +40,12 @@ Image make_image(Channel channel, ImageSize size) {
   return FloatImage(size, info.components);
 }
 
+std::string size_refusal(ImageSize size, const Limits& limits) {
+  const auto pixels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
+  if (pixels <= limits.picture_pixels) return {};
+  return fmt::format("{} x {} pixels: {}", size.width, size.height, limit_text(limits, &Limits::picture_pixels));
+}
+
 ImageSize image_size(const Image& image) {
   return std::visit([](const auto& typed) { return typed.size; }, image);
 }

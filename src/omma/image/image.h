@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "omma/base/limits.h"
 #include "omma/math/ray.h"
 
 namespace omma {
@@ -63,6 +64,9 @@ using Image = std::variant<FloatImage, IntImage>;
 
 /// Of a channel's kind and components, all zero.
 Image make_image(Channel channel, ImageSize size);
+
+/// Why a picture of this size is not made, "40000 x 40000 pixels: the limit …"; empty where it is.
+std::string size_refusal(ImageSize size, const Limits& limits);
 
 ImageSize image_size(const Image& image);
 int image_components(const Image& image);

@@ -164,7 +164,7 @@ std::optional<size_t> element_count(const Header& header) {
   return count;
 }
 
-Header read_header(const std::string& bytes, const std::string& path) {
+Header read_header(const std::string& bytes, const std::string& path, const Limits& limits) {
   if (bytes.empty()) throw InputError("{}: the file is empty, a .npy file is expected", path);
   if (!bytes.starts_with(magic) || bytes.size() < 10) {
     throw InputError("{}: is not a .npy file (it does not begin with \\x93NUMPY)", path);
@@ -194,6 +194,10 @@ Header read_header(const std::string& bytes, const std::string& path) {
   if (*count * header.item_size < available) {
     throw InputError("{}: {} bytes follow after the data that the header announces", path,
                      available - *count * header.item_size);
+  }
+  if (*count / 4 > limits.picture_pixels) {
+    throw InputError("{}: shape ({}): {} numbers, four a pixel are read: {}", path, fmt::join(header.shape, ", "),
+                     *count, limit_text(limits, &Limits::picture_pixels));
   }
   header.count = *count;
   return header;
@@ -264,10 +268,10 @@ constexpr const char* dtype_name() {
 }  // namespace
 
 template <typename T>
-NpyArray<T> read_npy(const std::filesystem::path& path) {
+NpyArray<T> read_npy(const std::filesystem::path& path, const Limits& limits) {
   const std::string name = path.string();
-  const std::string bytes = read_file(path);
-  const Header header = read_header(bytes, name);
+  const std::string bytes = read_file(path, limits);
+  const Header header = read_header(bytes, name, limits);
   NpyArray<T> array;
   array.shape = header.shape;
   array.integer = header.kind != 'f';
@@ -325,9 +329,9 @@ void write_npy(const std::filesystem::path& path, std::span<const size_t> shape,
   });
 }
 
-template NpyArray<float> read_npy(const std::filesystem::path&);
-template NpyArray<double> read_npy(const std::filesystem::path&);
-template NpyArray<int32_t> read_npy(const std::filesystem::path&);
+template NpyArray<float> read_npy(const std::filesystem::path&, const Limits&);
+template NpyArray<double> read_npy(const std::filesystem::path&, const Limits&);
+template NpyArray<int32_t> read_npy(const std::filesystem::path&, const Limits&);
 template void write_npy(const std::filesystem::path&, std::span<const size_t>, std::span<const float>);
 template void write_npy(const std::filesystem::path&, std::span<const size_t>, std::span<const double>);
 template void write_npy(const std::filesystem::path&, std::span<const size_t>, std::span<const int32_t>);

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "omma/base/limits.h"
+
 namespace omma {
 
 template <typename T>
@@ -18,9 +20,10 @@ struct NpyArray {
 
 /// Reads any real dtype (bool, i1-i8, u1-u8, f2, f4, f8), either byte order, C or Fortran order, as
 /// `T`: float, double or int32_t. Throws InputError when the file is no .npy, is truncated, holds
-/// something else, or holds a number that int32_t cannot (a fraction, one too large).
+/// something else, holds a number that int32_t cannot (a fraction, one too large), or more numbers than four for each
+/// of the limit's picture_pixels.
 template <typename T>
-NpyArray<T> read_npy(const std::filesystem::path& path);
+NpyArray<T> read_npy(const std::filesystem::path& path, const Limits& limits = {});
 
 /// Writes little-endian float32, float64 or int32 in C order. `values` has as many elements as
 /// `shape` says.

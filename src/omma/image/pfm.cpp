@@ -40,9 +40,9 @@ T header_number(std::string_view& text, std::string_view what, const std::string
 
 }  // namespace
 
-FloatImage read_pfm(const std::filesystem::path& path) {
+FloatImage read_pfm(const std::filesystem::path& path, const Limits& limits) {
   const std::string name = path.string();
-  const std::string bytes = read_file(path);
+  const std::string bytes = read_file(path, limits);
   std::string_view rest = bytes;
   const std::string_view kind = next_word(rest);
   if (kind != "PF" && kind != "Pf") {
@@ -55,6 +55,9 @@ FloatImage read_pfm(const std::filesystem::path& path) {
     throw InputError("{}: broken PFM header: {} x {}, scale {}; all must differ from zero", name, width, height, scale);
   }
   const int components = kind == "PF" ? 3 : 1;
+  if (const std::string why = size_refusal({width, height}, limits); !why.empty()) {
+    throw InputError("{}: {}", name, why);
+  }
   const size_t row = size_t(width) * components;
   if (rest.size() / sizeof(float) / row < size_t(height)) {
     throw InputError("{}: truncated: {} x {} x {} floats need {} bytes, there are {}", name, width, height, components,

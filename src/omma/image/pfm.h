@@ -4,12 +4,14 @@
 
 #include <filesystem>
 
+#include "omma/base/limits.h"
 #include "omma/image/image.h"
 
 namespace omma {
 
-/// Either byte order. The scale factor of the header is not applied. Throws InputError for a file that is no whole PFM.
-FloatImage read_pfm(const std::filesystem::path& path);
+/// Either byte order. The scale factor of the header is not applied. Throws InputError for a file that is no whole PFM
+/// and for one beyond the limits.
+FloatImage read_pfm(const std::filesystem::path& path, const Limits& limits = {});
 
 /// Little-endian; `image` has one or three components.
 void write_pfm(const std::filesystem::path& path, const FloatImage& image);

@@ -20,19 +20,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int max_components = 4;
-/// 32768 x 32768: a broken header must not be able to ask for all memory.
-constexpr int64_t max_pixels = int64_t{1} << 30;
 
-Image read_npy_image(const fs::path& path) {
-  const NpyArray<float> array = read_npy<float>(path);
+Image read_npy_image(const fs::path& path, const Limits& limits) {
+  const NpyArray<float> array = read_npy<float>(path, limits);
   const std::vector<size_t>& shape = array.shape;
   const size_t components = shape.size() == 3 ? shape[2] : 1;
   if (shape.size() < 2 || shape.size() > 3 || components < 1 || components > max_components || array.values.empty() ||
-      array.values.size() / components > size_t(max_pixels)) {
+      std::max(shape[0], shape[1]) > INT32_MAX) {
     throw InputError("{}: its shape is ({}); an image is H x W or H x W x components (1 to {})", path.string(),
                      fmt::join(shape, ", "), max_components);
   }
   const ImageSize size{int(shape[1]), int(shape[0])};
+  if (const std::string why = size_refusal(size, limits); !why.empty()) {
+    throw InputError("{}: {}", path.string(), why);
+  }
   const auto image_of = [&](auto values) {
     ImageOf<typename decltype(values)::value_type> image;
     image.size = size;
@@ -40,18 +41,18 @@ Image read_npy_image(const fs::path& path) {
     image.values = std::move(values);
     return image;
   };
-  if (array.integer) return image_of(read_npy<int32_t>(path).values);
+  if (array.integer) return image_of(read_npy<int32_t>(path, limits).values);
   return image_of(array.values);
 }
 
-Pixels decode(const fs::path& path, ImageFormat format) {
-  const std::string bytes = read_file(path);
+Pixels decode(const fs::path& path, ImageFormat format, const Limits& limits) {
+  const std::string bytes = read_file(path, limits);
   const auto accept = [&](const PictureInfo& info) {
     const int components = info.alpha > 0 ? info.alpha : info.components;
-    if (int64_t{info.size.width} * info.size.height > max_pixels || components > max_components) {
-      throw InputError("{} x {} pixels of {} components; up to {} pixels of {} are read", info.size.width,
-                       info.size.height, components, max_pixels, max_components);
+    if (components > max_components) {
+      throw InputError("{} components a pixel; up to {} are read", components, max_components);
     }
+    if (const std::string why = size_refusal(info.size, limits); !why.empty()) throw InputError("{}", why);
   };
   try {
     switch (format) {
@@ -69,7 +70,7 @@ Pixels decode(const fs::path& path, ImageFormat format) {
 
 /// The image without its alpha; `value(sample, alpha)` makes what it holds.
 template <typename T, typename S, typename Value>
-ImageOf<T> without_alpha(const Pixels& pixels, const std::vector<S>& samples, const Value& value) {
+ImageOf<T> without_alpha(const Pixels& pixels, const SampleVector<S>& samples, const Value& value) {
   const int alpha = pixels.info.alpha;
   ImageOf<T> image(pixels.info.size, alpha > 0 ? alpha : pixels.info.components);
   const bool covers = alpha > 0 && alpha < pixels.stored();
@@ -84,7 +85,7 @@ ImageOf<T> without_alpha(const Pixels& pixels, const std::vector<S>& samples, co
 
 /// Numbers of a .png or .jpg, which are colour; a pixel that is not wholly there is that much darker.
 template <typename S>
-FloatImage linear_image(const Pixels& pixels, const std::vector<S>& samples) {
+FloatImage linear_image(const Pixels& pixels, const SampleVector<S>& samples) {
   constexpr uint32_t largest = std::numeric_limits<S>::max();
   std::vector<float> linear(largest + 1);
   for (uint32_t i = 0; i <= largest; ++i) linear[i] = linear_from_srgb(float(i) * (1.0f / float(largest)));
@@ -92,11 +93,11 @@ FloatImage linear_image(const Pixels& pixels, const std::vector<S>& samples) {
                               [&](S sample, S alpha) { return linear[uint32_t{sample} * alpha / largest]; });
 }
 
-Image read_encoded(const fs::path& path, ImageFormat format) {
-  const Pixels pixels = decode(path, format);
+Image read_encoded(const fs::path& path, ImageFormat format, const Limits& limits) {
+  const Pixels pixels = decode(path, format, limits);
   const auto as_it_is = [](auto sample, auto) { return sample; };
   return std::visit(
-      [&]<typename S>(const std::vector<S>& samples) -> Image {
+      [&]<typename S>(const SampleVector<S>& samples) -> Image {
         if constexpr (std::is_same_v<S, float>) {
           return without_alpha<float>(pixels, samples, as_it_is);
         } else if constexpr (std::is_same_v<S, uint32_t>) {
@@ -114,15 +115,15 @@ Image read_encoded(const fs::path& path, ImageFormat format) {
 
 }  // namespace
 
-Image read_image(const fs::path& path) {
+Image read_image(const fs::path& path, const Limits& limits) {
   const ImageFormatInfo* format = find_image_format(path);
   if (!format) {
     throw CommandError("{}: '{}' is no image format; {} are", path.string(), path.extension().string(),
                        all_image_extensions());
   }
-  if (format->format == ImageFormat::npy) return read_npy_image(path);
-  if (format->format == ImageFormat::pfm) return read_pfm(path);
-  return read_encoded(path, format->format);
+  if (format->format == ImageFormat::npy) return read_npy_image(path, limits);
+  if (format->format == ImageFormat::pfm) return read_pfm(path, limits);
+  return read_encoded(path, format->format, limits);
 }
 
 }  // namespace omma

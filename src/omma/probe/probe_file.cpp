@@ -64,8 +64,9 @@ void write_ply(std::ostream& stream, std::span<const ProbePoint> points, std::sp
 
 }  // namespace
 
-std::vector<ProbePoint> load_probe_points(const std::filesystem::path& path, const std::optional<glm::dvec3>& normal) {
-  const NpyArray<double> file = read_npy<double>(path);
+std::vector<ProbePoint> load_probe_points(const std::filesystem::path& path, const std::optional<glm::dvec3>& normal,
+                                          const Limits& limits) {
+  const NpyArray<double> file = read_npy<double>(path, limits);
   const size_t columns = file.shape.size() == 2 ? file.shape[1] : 0;
   if (columns != 3 && columns != 6) {
     throw InputError("{}: K x 6 numbers, positions and normals, or K x 3, positions alone, are expected",

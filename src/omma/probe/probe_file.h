@@ -14,7 +14,8 @@ namespace omma {
 
 /// Points of a `.npy` file: K x 6 numbers, position and normal, or K x 3, positions that share `normal`. Throws
 /// InputError for any other content, with the row of a point without a direction.
-std::vector<ProbePoint> load_probe_points(const std::filesystem::path& path, const std::optional<glm::dvec3>& normal);
+std::vector<ProbePoint> load_probe_points(const std::filesystem::path& path, const std::optional<glm::dvec3>& normal,
+                                          const Limits& limits = {});
 
 struct ProbeMesh {
   std::vector<ProbePoint> points;

@@ -83,13 +83,13 @@ Scene make_builtin(const BuiltinScene& builtin, const Spec& spec) {
 
 }  // namespace
 
-Scene load_scene(std::string_view text) {
+Scene load_scene(std::string_view text, const ReadOptions& options) {
   const std::string_view name = text.substr(0, text.find(':'));
   const std::filesystem::path path(text);
   if (path.has_extension() && std::filesystem::path(name).has_extension()) {
-    return load_scene_file(path);
+    return load_scene_file(path, options);
   }
-  if (name.find('/') != std::string_view::npos) return load_scene_file(path);
+  if (name.find('/') != std::string_view::npos) return load_scene_file(path, options);
 
   const Spec spec = parse_spec(text);
   std::vector<std::string> names;

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "omma/base/limits.h"
 #include "omma/math/bounds.h"
 #include "omma/scene/changes.h"
 
@@ -199,11 +200,12 @@ SceneChanges set_time(Scene& scene, double seconds, std::string_view animation =
 /// The scene of a text: a built-in (`city`, `city:blocks=54,seed=1`; see `builtin_scenes()`) or a file that assimp
 /// reads. A text with an extension or a `/` is a file.
 /// Throws CommandError for a name or parameter, InputError for a file; warns of what it repaired.
-Scene load_scene(std::string_view text);
+Scene load_scene(std::string_view text, const ReadOptions& options = {});
 
 /// glTF and GLB, OBJ, PLY, STL, Collada, FBX and whatever else assimp knows. Throws InputError for a file without a
-/// triangle that can be drawn; warns, once a file, of triangles and textures that cannot.
-Scene load_scene_file(const std::filesystem::path& path);
+/// triangle that can be drawn, and for one beyond the limits or that needs a file out of reach; warns, once a file, of
+/// triangles and textures that cannot be drawn.
+Scene load_scene_file(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// A whole number.
 struct BuiltinParameter {

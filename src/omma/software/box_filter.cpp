@@ -3,14 +3,6 @@
 #include <algorithm>
 
 namespace omma {
-namespace {
-
-/// Texels of one axis that a texel of the next level covers, and how much of each: three where the size is odd.
-struct Covered {
-  int first;
-  float weight[3];
-};
-
 std::vector<Covered> covered_by_next_level(int size, int next) {
   std::vector<Covered> all(size_t(next), Covered{});
   const double step = double(size) / double(next);
@@ -26,8 +18,6 @@ std::vector<Covered> covered_by_next_level(int size, int next) {
   }
   return all;
 }
-
-}  // namespace
 
 std::vector<glm::vec4> next_level(const std::vector<glm::vec4>& level, glm::ivec2 size) {
   const glm::ivec2 next = next_size(size);

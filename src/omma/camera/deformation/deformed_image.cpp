@@ -8,6 +8,7 @@
 
 #include "omma/base/error.h"
 #include "omma/camera/deformation/deformation.h"
+#include "omma/image/image.h"
 
 namespace omma {
 
@@ -72,8 +73,15 @@ std::string source_text(const Spec& spec, const ImageSize& size, const glm::dvec
   return spec_text(scaled);
 }
 
-Camera deformed_camera(const ImageSize& size, const std::string& source,
+void check_deformed_size(const ImageSize& size, const std::string& source, const Limits& limits) {
+  if (const std::string why = size_refusal(size, limits); !why.empty()) {
+    throw CommandError("{}: a ray is kept for each of {}", source, why);
+  }
+}
+
+Camera deformed_camera(const ImageSize& size, const std::string& source, const Limits& limits,
                        const std::function<std::optional<glm::dvec3>(const glm::dvec2& pixel)>& direction) {
+  check_deformed_size(size, source, limits);
   RayMap map{.size = size,
              .directions = std::vector<glm::vec3>(static_cast<size_t>(size.width) * size.height, glm::vec3(0.0F)),
              .source = source};

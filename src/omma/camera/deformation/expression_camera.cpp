@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "omma/base/error.h"
-#include "omma/base/file.h"
-
 #include "omma/camera/camera_parameters.h"
 #include "omma/camera/deformation/deformation.h"
 #include "omma/camera/deformation/expression.h"
 #include "omma/camera/deformation/radial_camera.h"
+#include "omma/camera/deformation/text_rows.h"
 
 namespace omma {
 namespace {
@@ -45,8 +44,8 @@ struct Source {
 // What an expression camera's text and file say together; the command line wins.
 class Sources {
  public:
-  explicit Sources(const Spec& spec) : spec_{spec.name, {}} {
-    if (const auto file = spec.values.find("file"); file != spec.values.end()) read(file->second);
+  Sources(const Spec& spec, const Limits& limits) : spec_{spec.name, {}} {
+    if (const auto file = spec.values.find("file"); file != spec.values.end()) read(file->second, limits);
     for (const auto& [key, value] : spec.values) {
       if (key == "file") continue;
       spec_.values[key] = value;
@@ -69,12 +68,11 @@ class Sources {
   }
 
  private:
-  void read(const std::string& path) {
-    const std::vector<std::string> lines = split(read_file(path), '\n');
-    for (size_t i = 0; i < lines.size(); ++i) {
-      const std::string line = trimmed(std::string_view(lines[i]).substr(0, lines[i].find('#')));
-      if (line.empty()) continue;
-      const std::string place = fmt::format("{}:{}", path, i + 1);
+  void read(const std::string& path, const Limits& limits) {
+    for_each_line(path, limits, [&](std::string_view text, size_t number) {
+      const std::string line = trimmed(text);
+      if (line.empty()) return;
+      const std::string place = fmt::format("{}:{}", path, number);
       const size_t equals = line.find('=');
       const std::string key = trimmed(std::string_view(line).substr(0, equals));
       if (equals == std::string::npos || key.empty()) {
@@ -85,7 +83,7 @@ class Sources {
         throw InputError("{}: '{}' is given twice", place, key);
       }
       places_[key] = place;
-    }
+    });
   }
 
   Spec spec_;
@@ -149,7 +147,7 @@ Camera by_image_point(const DeformationText& text, const std::vector<Expression>
   if (wanted != own) image_scale(text.label("width"), own, wanted);
   const double aspect = static_cast<double>(wanted.width) / wanted.height;
   return deformed_camera(
-      wanted, source_text(text.spec(), wanted, glm::dvec2(1.0)),
+      wanted, source_text(text.spec(), wanted, glm::dvec2(1.0)), text.limits(),
       [&](const glm::dvec2& pixel) -> std::optional<glm::dvec3> {
         const double values[] = {2.0 * pixel.x / wanted.width - 1.0, 1.0 - 2.0 * pixel.y / wanted.height, aspect};
         const double a = formulae[0](values), b = formulae[1](values);
@@ -161,9 +159,9 @@ Camera by_image_point(const DeformationText& text, const std::vector<Expression>
 
 }  // namespace
 
-Camera make_expression_camera(const Spec& spec, std::optional<ImageSize> size) {
-  const Sources sources(spec);
-  const DeformationText text(sources.spec());
+Camera make_expression_camera(const Spec& spec, std::optional<ImageSize> size, const Limits& limits) {
+  const Sources sources(spec, limits);
+  const DeformationText text(sources.spec(), limits);
   std::vector<const char*> keys;
   for (const Form& form : forms()) keys.insert(keys.end(), form.formulae.begin(), form.formulae.end());
   const Form& form = form_of(text);

@@ -70,16 +70,17 @@ Camera make_radial_camera(const DeformationText& text, const RadialForm& form, s
                           text.number_within("cy", -far, far).value_or(0.5 * own.height));
   const glm::dmat3 cameraFromLens = lens_rotation(
       [&](const char* key, double limit) { return text.number_within(key, -limit, limit).value_or(0.0); });
-  return deformed_camera(
-      wanted, source_text(text.spec(), wanted, scale), [&](const glm::dvec2& pixel) -> std::optional<glm::dvec3> {
-        const glm::dvec2 point = (pixel / scale - centre) / plane.focal;
-        const double radius = glm::length(point);
-        const auto angle = form.angle(radius);
-        if (!angle || *angle > plane.max_angle) return {};
-        const glm::dvec2 meridian = radius > 0.0 ? point / radius : glm::dvec2(1.0, 0.0);
-        const double across = std::sin(*angle);
-        return cameraFromLens * glm::dvec3(meridian.x * across, -meridian.y * across, -std::cos(*angle));
-      });
+  return deformed_camera(wanted, source_text(text.spec(), wanted, scale), text.limits(),
+                         [&](const glm::dvec2& pixel) -> std::optional<glm::dvec3> {
+                           const glm::dvec2 point = (pixel / scale - centre) / plane.focal;
+                           const double radius = glm::length(point);
+                           const auto angle = form.angle(radius);
+                           if (!angle || *angle > plane.max_angle) return {};
+                           const glm::dvec2 meridian = radius > 0.0 ? point / radius : glm::dvec2(1.0, 0.0);
+                           const double across = std::sin(*angle);
+                           return cameraFromLens *
+                                  glm::dvec3(meridian.x * across, -meridian.y * across, -std::cos(*angle));
+                         });
 }
 
 }  // namespace omma

@@ -50,10 +50,10 @@ struct Table {
   std::vector<double> angles, radii;  ///< radians, the file's unit
 };
 
-Table read_table(const std::string& path, bool angle_first) {
+Table read_table(const std::string& path, bool angle_first, const Limits& limits) {
   constexpr size_t max_rows = 1'000'000;
   Table table;
-  for (const TextRow& row : read_rows(path)) {
+  for_each_row(path, limits, [&](const TextRow& row) {
     if (row.words.size() != 2) {
       throw InputError("{}: {} values; two are expected, the angle in degrees and the radius", row.place,
                        row.words.size());
@@ -71,7 +71,7 @@ Table read_table(const std::string& path, bool angle_first) {
     if (table.angles.size() == max_rows) throw InputError("{}: more than {} rows", row.place, max_rows);
     table.angles.push_back(radians);
     table.radii.push_back(radius);
-  }
+  });
   if (table.angles.size() < 2) {
     throw InputError("{}: {} rows; two or more of 'angle radius' are expected", path, table.angles.size());
   }
@@ -80,8 +80,8 @@ Table read_table(const std::string& path, bool angle_first) {
 
 }  // namespace
 
-Camera make_table_camera(const Spec& spec, std::optional<ImageSize> size) {
-  const DeformationText text(spec);
+Camera make_table_camera(const Spec& spec, std::optional<ImageSize> size, const Limits& limits) {
+  const DeformationText text(spec, limits);
   std::vector<const char*> keys = {"file", "columns"};
   keys.insert(keys.end(), radial_keys.begin(), radial_keys.end());
   text.accept_only(keys);
@@ -91,7 +91,7 @@ Camera make_table_camera(const Spec& spec, std::optional<ImageSize> size) {
     throw CommandError("{}: {}", spec.name, unknown_name("columns", order, orders));
   }
   const bool angle_first = order == orders.front();
-  Table table = read_table(text.value("file"), angle_first);
+  Table table = read_table(text.value("file"), angle_first, limits);
   std::vector<double> x = table.angles, y = table.radii;
   if (!angle_first) std::swap(x, y);
   const double low = x.front(), high = x.back();

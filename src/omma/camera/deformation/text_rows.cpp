@@ -27,28 +27,36 @@ double TextRow::number(size_t word) const { return parsed(*this, word, parse_num
 
 long TextRow::integer(size_t word) const { return parsed(*this, word, parse_integer); }
 
-std::vector<TextRow> read_rows(const std::filesystem::path& path) {
-  std::vector<TextRow> rows;
-  const std::string text = read_file(path);
-  size_t line_number = 0;
+void for_each_line(const std::filesystem::path& path, const Limits& limits,
+                   const std::function<void(std::string_view, size_t)>& visit) {
+  const std::string text = read_file(path, limits);
+  size_t number = 0;
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line = std::string_view(text).substr(begin, end - begin);
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
     begin = end + 1;
-    ++line_number;
-    line = line.substr(0, line.find('#'));
-    TextRow row;
+    visit(line.substr(0, line.find('#')), ++number);
+  }
+}
+
+void for_each_row(const std::filesystem::path& path, const Limits& limits,
+                  const std::function<void(const TextRow&)>& visit) {
+  constexpr size_t most_words = 4096;  // a face of an OBJ has as many as corners
+  const std::string name = path.string();
+  TextRow row;
+  for_each_line(path, limits, [&](std::string_view line, size_t number) {
     constexpr std::string_view separators = " \t,;\r";
+    row.words.clear();
     for (size_t at = line.find_first_not_of(separators); at != std::string_view::npos;) {
       const size_t stop = std::min(line.find_first_of(separators, at), line.size());
+      if (row.words.size() == most_words) throw InputError("{}:{}: more than {} words", name, number, most_words);
       row.words.emplace_back(line.substr(at, stop - at));
       at = line.find_first_not_of(separators, stop);
     }
-    if (row.words.empty()) continue;
-    row.place = fmt::format("{}:{}", path.string(), line_number);
-    rows.push_back(std::move(row));
-  }
-  return rows;
+    if (row.words.empty()) return;
+    row.place = fmt::format("{}:{}", name, number);
+    visit(row);
+  });
 }
 
 }  // namespace omma

@@ -1,9 +1,13 @@
-// Text files of numbers: rows of words.
+// Text files line by line: a file of millions of rows takes no more memory than its text.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "omma/base/limits.h"
 
 namespace omma {
 
@@ -16,7 +20,14 @@ struct TextRow {
   long integer(size_t word) const;
 };
 
-/// The rows that hold anything. Spaces, tabs, commas and semicolons separate words; '#' begins a comment.
-std::vector<TextRow> read_rows(const std::filesystem::path& path);
+/// The lines of a file and their numbers, from 1, without comments, which '#' begins. Throws InputError as read_file
+/// does.
+void for_each_line(const std::filesystem::path& path, const Limits& limits,
+                   const std::function<void(std::string_view line, size_t number)>& visit);
+
+/// The rows that hold anything. Spaces, tabs, commas and semicolons separate words. Throws InputError as read_file
+/// does, and for a row of more words than any that means something.
+void for_each_row(const std::filesystem::path& path, const Limits& limits,
+                  const std::function<void(const TextRow& row)>& visit);
 
 }  // namespace omma

@@ -133,7 +133,7 @@ std::vector<glm::dvec2> warp_sources(const WarpMesh& mesh, const ImageSize& size
 }
 
 Camera warped_camera(const WarpMesh& mesh, const Camera& base, const ImageSize& size, const std::string& file,
-                     const std::string& source) {
+                     const std::string& source, const Limits& limits) {
   if (auto pieces = warped_pieces(mesh, base, size, source)) {
     const std::vector<Piece>& all = pieces->pieces();
     size_t under = 0;
@@ -146,6 +146,7 @@ Camera warped_camera(const WarpMesh& mesh, const Camera& base, const ImageSize& 
     }
     return Camera(std::move(*pieces));
   }
+  check_deformed_size(size, source, limits);
   size_t overlapping = 0;
   const std::vector<glm::dvec2> sources = warp_sources(mesh, size, file, overlapping);
   if (overlapping > 0) {
@@ -154,7 +155,7 @@ Camera warped_camera(const WarpMesh& mesh, const Camera& base, const ImageSize& 
   }
   const glm::dvec2 base_size(base.size().width, base.size().height);
   constexpr double slack = 1e-9;
-  return deformed_camera(size, source, [&](const glm::dvec2& pixel) -> std::optional<glm::dvec3> {
+  return deformed_camera(size, source, limits, [&](const glm::dvec2& pixel) -> std::optional<glm::dvec3> {
     const glm::dvec2 point = sources[static_cast<size_t>(pixel.y) * size.width + static_cast<size_t>(pixel.x)];
     const bool inside = std::min(point.x, point.y) >= -slack && std::max(point.x, point.y) <= 1.0 + slack;
     if (!inside) return {};
@@ -173,21 +174,21 @@ Camera base_camera(const DeformationText& text, std::span<const char* const> own
     spec.values["width"] = std::to_string(own_size->width);
     spec.values["height"] = std::to_string(own_size->height);
   }
-  return make_camera(spec_text(spec), size);
+  return make_camera(spec_text(spec), size, text.limits());
 }
 
-FloatImage read_vectors(const std::filesystem::path& path) {
+FloatImage read_vectors(const std::filesystem::path& path, const Limits& limits) {
   const std::string name = path.string();
-  const Image image = read_image(path);
+  const Image image = read_image(path, limits);
   const auto* vectors = std::get_if<FloatImage>(&image);
   if (!vectors || vectors->components < 2) {
     throw InputError("{}: {} component{} of {} a pixel; two are expected in R and G", name, image_components(image),
                      image_components(image) == 1 ? "" : "s", vectors ? "floats" : "whole numbers");
   }
-  constexpr int most = 4096;
-  if (vectors->size.width > most || vectors->size.height > most) {
-    throw InputError("{}: {} x {} pixels; up to {} a side are accepted", name, vectors->size.width,
-                     vectors->size.height, most);
+  const size_t pixels = static_cast<size_t>(vectors->size.width) * static_cast<size_t>(vectors->size.height);
+  if (pixels > limits.warp_nodes) {
+    throw InputError("{}: {} x {} pixels make a mesh: {}", name, vectors->size.width, vectors->size.height,
+                     limit_text(limits, &Limits::warp_nodes));
   }
   return *vectors;
 }

@@ -46,9 +46,9 @@ std::vector<glm::dvec2> warp_sources(const WarpMesh& mesh, const ImageSize& size
 
 /// The camera that sees in each pixel what `base` sees at the point that the mesh says: in the pieces form where
 /// warped_pieces makes one, else a ray map. Throws InputError as warp_sources does, CommandError when no pixel has a
-/// ray.
+/// ray, and for more pixels than the limit.
 Camera warped_camera(const WarpMesh& mesh, const Camera& base, const ImageSize& size, const std::string& file,
-                     const std::string& source);
+                     const std::string& source, const Limits& limits);
 
 /// The same as pieces, one for each triangle that has an area and meets the image; those that are turned over come
 /// last. Nothing where pieces would not show the same: the base is not perspective or does not fill its image, the mesh
@@ -62,10 +62,11 @@ Camera base_camera(const DeformationText& text, std::span<const char* const> own
                    std::optional<ImageSize> own_size, std::optional<ImageSize> size);
 
 /// Of Paul Bourke's `.data`, Wavefront `.obj`, `.pfm` or `.exr` (R, G: u, v). `aspect` is width / height of the screen.
-/// Throws CommandError for another extension, InputError for what is in the file.
-WarpMesh read_warp_mesh(const std::filesystem::path& path, double aspect);
+/// Throws CommandError for another extension, InputError for what is in the file, and for more nodes than the limit.
+WarpMesh read_warp_mesh(const std::filesystem::path& path, double aspect, const Limits& limits = {});
 
-/// An image of two or three floats a pixel, up to 4096 x 4096. Throws InputError for any other.
-FloatImage read_vectors(const std::filesystem::path& path);
+/// An image of two or three floats a pixel, with no more pixels than the limit's warp_nodes. Throws InputError for any
+/// other.
+FloatImage read_vectors(const std::filesystem::path& path, const Limits& limits = {});
 
 }  // namespace omma

@@ -29,8 +29,8 @@ void decode_offsets(FloatImage& image) {
   }
 }
 
-FloatImage read_offsets(const std::string& path) {
-  FloatImage image = read_vectors(path);
+FloatImage read_offsets(const std::string& path, const Limits& limits) {
+  FloatImage image = read_vectors(path, limits);
   const ImageFormat format = find_image_format(path)->format;
   if (format == ImageFormat::png || format == ImageFormat::jpg) decode_offsets(image);
   return image;
@@ -57,13 +57,13 @@ std::string file_of(const DeformationText& text) {
 // Spindler, Bubke, Germer, Strothotte, "Camera Textures", GRAPHITE 2006; Lorenz and Döllner 2009, section 3.2: a point
 // of the base image is moved by the offset found there. Each cell of the texture's grid is two triangles whose corners
 // are moved, so that the way back from a pixel needs no search.
-Camera make_camera_texture(const Spec& spec, std::optional<ImageSize> size) {
-  const DeformationText text(spec);
+Camera make_camera_texture(const Spec& spec, std::optional<ImageSize> size, const Limits& limits) {
+  const DeformationText text(spec, limits);
   const double strength = text.number_within("strength", -1e6, 1e6).value_or(1.0);
   const Camera base = base_camera(text, texture_keys, std::nullopt, size);
   const ImageSize own = text.own_size().value_or(base.size());
   const std::string file = file_of(text);
-  const FloatImage offsets = read_offsets(file);
+  const FloatImage offsets = read_offsets(file, limits);
   const WarpMesh mesh =
       texture_mesh(offsets.size, [&](const glm::dvec2& place, const glm::ivec2& texel, const glm::dvec2&) {
         const float* offset = offsets.at(texel.x, texel.y);
@@ -73,24 +73,25 @@ Camera make_camera_texture(const Spec& spec, std::optional<ImageSize> size) {
                          static_cast<double>(base.size().height) / own.height);
   // A base with a size of its own, such as a ray map's file, takes none.
   const bool sized = find_lens_model(text.value("base")) || find_deformation(text.value("base"));
-  return warped_camera(mesh, base, base.size(), file, sized ? source_text(spec, base.size(), scale) : spec_text(spec));
+  return warped_camera(mesh, base, base.size(), file, sized ? source_text(spec, base.size(), scale) : spec_text(spec),
+                       limits);
 }
 
-Camera make_warp_mesh_camera(const Spec& spec, std::optional<ImageSize> size) {
-  const DeformationText text(spec);
+Camera make_warp_mesh_camera(const Spec& spec, std::optional<ImageSize> size, const Limits& limits) {
+  const DeformationText text(spec, limits);
   const ImageSize own = text.own_size().value_or(size.value_or(default_image_size));
   const ImageSize wanted = size.value_or(own);
   if (wanted != own) image_scale(text.label("width"), own, wanted);
   const ImageSize base_size = text.own_size("base_").value_or(ImageSize{wanted.height, wanted.height});
   const std::string file = text.value("file");
   const Camera base = base_camera(text, mesh_keys, base_size, std::nullopt);
-  const WarpMesh mesh = read_warp_mesh(file, static_cast<double>(wanted.width) / wanted.height);
+  const WarpMesh mesh = read_warp_mesh(file, static_cast<double>(wanted.width) / wanted.height, limits);
   Spec source = spec;
   source.values["width"] = std::to_string(wanted.width);
   source.values["height"] = std::to_string(wanted.height);
   source.values["base_width"] = std::to_string(base_size.width);
   source.values["base_height"] = std::to_string(base_size.height);
-  return warped_camera(mesh, base, wanted, file, spec_text(source));
+  return warped_camera(mesh, base, wanted, file, spec_text(source), limits);
 }
 
 bool changes_with_frame(std::string_view camera_text) {

@@ -1,4 +1,5 @@
 // Warp meshes from files. u and v run from the lower left corner of the base image, as those who made them have it.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,50 +12,86 @@
 namespace omma {
 namespace {
 
-constexpr size_t max_nodes = size_t{1} << 24;
 constexpr WarpNode not_shown = {glm::dvec2(std::numeric_limits<double>::quiet_NaN()), glm::dvec2(0.0)};
 
 glm::dvec2 source_of(double u, double v) { return {u, 1.0 - v}; }
 
 // http://paulbourke.net/dataformats/meshwarp/: the mesh's type (2 rectangular, 1 polar), its two dimensions, and for
 // each node x, y (1 at the image's top, as wide as it is), u, v, and an intensity, negative where nothing is drawn.
-WarpMesh read_bourke(const std::string& path, double aspect) {
-  const std::vector<TextRow> rows = read_rows(path);
-  if (rows.size() < 2)
-    throw InputError("{}: two lines of a header are expected: the mesh's type, its dimensions", path);
-  const long type = rows[0].integer(0);
-  if (rows[0].words.size() != 1 || (type != 1 && type != 2)) {
-    throw InputError("{}: mesh type '{}'; 2 (rectangular) or 1 (polar) is accepted", rows[0].place, rows[0].words[0]);
+class BourkeReader {
+ public:
+  BourkeReader(const std::string& path, double aspect, const Limits& limits)
+      : path_(path), aspect_(aspect), limits_(limits) {}
+
+  WarpMesh read() {
+    for_each_row(path_, limits_, [&](const TextRow& row) {
+      if (rows_ == 0) {
+        read_type(row);
+      } else if (rows_ == 1) {
+        read_dimensions(row);
+      } else {
+        read_node(row);
+      }
+      ++rows_;
+      place_ = row.place;
+    });
+    if (rows_ < 2) {
+      throw InputError("{}: two lines of a header are expected: the mesh's type, its dimensions", path_);
+    }
+    if (rows_ - 2 != count()) {
+      throw InputError("{}: {} lines of nodes; {} x {} are expected", place_, rows_ - 2, columns_, lines_);
+    }
+    if (shaded_) {
+      warn(fmt::format("{}: its intensities are for blending projectors; rays have none, the picture is not shaded",
+                       path_));
+    }
+    add_grid_triangles(mesh_, static_cast<int>(columns_), static_cast<int>(lines_), type_ == 1);
+    return std::move(mesh_);
   }
-  const long columns = rows[1].integer(0), lines = rows[1].integer(1);
-  const long most = static_cast<long>(max_nodes);
-  if (rows[1].words.size() != 2 || columns < 2 || lines < 2 || columns > most || lines > most / columns) {
-    throw InputError("{}: a mesh of {} x {} nodes; 2 a side or more, {} in all are accepted", rows[1].place, columns,
-                     lines, most);
+
+ private:
+  size_t count() const { return static_cast<size_t>(columns_) * static_cast<size_t>(lines_); }
+
+  void read_type(const TextRow& row) {
+    type_ = row.integer(0);
+    if (row.words.size() != 1 || (type_ != 1 && type_ != 2)) {
+      throw InputError("{}: mesh type '{}'; 2 (rectangular) or 1 (polar) is accepted", row.place, row.words[0]);
+    }
   }
-  const size_t count = static_cast<size_t>(columns) * static_cast<size_t>(lines);
-  if (rows.size() - 2 != count) {
-    throw InputError("{}: {} lines of nodes; {} x {} are expected", rows.back().place, rows.size() - 2, columns, lines);
+
+  void read_dimensions(const TextRow& row) {
+    columns_ = row.integer(0);
+    lines_ = row.integer(1);
+    const long most = static_cast<long>(limits_.warp_nodes);
+    if (row.words.size() != 2 || columns_ < 2 || lines_ < 2) {
+      throw InputError("{}: a mesh of {} x {} nodes; 2 a side or more are accepted", row.place, columns_, lines_);
+    }
+    if (columns_ > most || lines_ > most / columns_) {
+      throw InputError("{}: a mesh of {} x {} nodes: {}", row.place, columns_, lines_,
+                       limit_text(limits_, &Limits::warp_nodes));
+    }
   }
-  WarpMesh mesh;
-  bool shaded = false;
-  for (size_t i = 2; i < rows.size(); ++i) {
-    const TextRow& row = rows[i];
+
+  void read_node(const TextRow& row) {
     if (row.words.size() != 5) {
       throw InputError("{}: {} values; five are expected: x y u v intensity", row.place, row.words.size());
     }
     const double x = row.number(0), y = row.number(1), intensity = row.number(4);
-    const WarpNode node{{0.5 + 0.5 * x / aspect, 0.5 - 0.5 * y}, source_of(row.number(2), row.number(3))};
-    mesh.nodes.push_back(intensity < 0.0 ? not_shown : node);
-    shaded = shaded || (intensity >= 0.0 && intensity != 1.0);
+    const WarpNode node{{0.5 + 0.5 * x / aspect_, 0.5 - 0.5 * y}, source_of(row.number(2), row.number(3))};
+    // Those beyond the last are only counted.
+    if (mesh_.nodes.size() < count()) mesh_.nodes.push_back(intensity < 0.0 ? not_shown : node);
+    shaded_ = shaded_ || (intensity >= 0.0 && intensity != 1.0);
   }
-  if (shaded) {
-    warn(fmt::format("{}: its intensities are for blending projectors; rays have none, the picture is not shaded",
-                     path));
-  }
-  add_grid_triangles(mesh, static_cast<int>(columns), static_cast<int>(lines), type == 1);
-  return mesh;
-}
+
+  const std::string& path_;
+  double aspect_;
+  const Limits& limits_;
+  WarpMesh mesh_;
+  size_t rows_ = 0;
+  std::string place_;  ///< of the last row
+  long type_ = 0, columns_ = 0, lines_ = 0;
+  bool shaded_ = false;
+};
 
 // The entry that a word of a face names, counted from 1, or from the end when negative.
 size_t entry_of(const TextRow& row, const std::string& word, size_t count, const char* what) {
@@ -73,11 +110,11 @@ size_t entry_of(const TextRow& row, const std::string& word, size_t count, const
 }
 
 // Wavefront OBJ as SGCT uses it: x and y from -1 to 1 over the image, y up.
-WarpMesh read_obj(const std::string& path) {
+WarpMesh read_obj(const std::string& path, const Limits& limits) {
   WarpMesh mesh;
   std::vector<glm::dvec2> places, sources;
   bool deep = false;
-  for (const TextRow& row : read_rows(path)) {
+  for_each_row(path, limits, [&](const TextRow& row) {
     const std::string& kind = row.words[0];
     if (kind == "v") {
       places.emplace_back(0.5 + 0.5 * row.number(1), 0.5 - 0.5 * row.number(2));
@@ -99,17 +136,20 @@ WarpMesh read_obj(const std::string& path) {
           mesh.triangles.push_back({first, last - 1, last});
         }
       }
-      if (mesh.nodes.size() > max_nodes) throw InputError("{}: more than {} corners", row.place, max_nodes);
     }
-  }
+    if (std::max({mesh.nodes.size(), places.size(), sources.size()}) > limits.warp_nodes) {
+      throw InputError("{}: more than {} corners: {}", row.place, limits.warp_nodes,
+                       limit_text(limits, &Limits::warp_nodes));
+    }
+  });
   if (mesh.triangles.empty()) throw InputError("{}: no face (a line such as 'f 1/1 2/2 3/3')", path);
   if (deep) warn(fmt::format("{}: a warp mesh is flat, its z is not used", path));
   return mesh;
 }
 
 // As MPCDI has it: R and G hold u and v, for as many points as there are pixels; NaN where nothing is shown.
-WarpMesh read_uv_image(const std::string& path) {
-  const FloatImage image = read_vectors(path);
+WarpMesh read_uv_image(const std::string& path, const Limits& limits) {
+  const FloatImage image = read_vectors(path, limits);
   return texture_mesh(image.size, [&](const glm::dvec2& place, const glm::ivec2& texel, const glm::dvec2& centre) {
     const float* uv = image.at(texel.x, texel.y);
     return WarpNode{place, source_of(uv[0], uv[1]) + (place - centre)};
@@ -118,11 +158,11 @@ WarpMesh read_uv_image(const std::string& path) {
 
 }  // namespace
 
-WarpMesh read_warp_mesh(const std::filesystem::path& path, double aspect) {
+WarpMesh read_warp_mesh(const std::filesystem::path& path, double aspect, const Limits& limits) {
   const std::string name = path.string(), extension = path.extension().string();
-  if (extension == ".data") return read_bourke(name, aspect);
-  if (extension == ".obj") return read_obj(name);
-  if (extension == ".pfm" || extension == ".exr") return read_uv_image(name);
+  if (extension == ".data") return BourkeReader(name, aspect, limits).read();
+  if (extension == ".obj") return read_obj(name, limits);
+  if (extension == ".pfm" || extension == ".exr") return read_uv_image(name, limits);
   throw CommandError("{}: '{}' is no warp mesh; .data, .obj, .pfm and .exr are", name, extension);
 }
 

@@ -77,15 +77,22 @@ DocumentNode root_of(const Document& document) {
   return DocumentNode(std::shared_ptr<const Document>(std::shared_ptr<const Document>(), &document));
 }
 
-ImageSize image_size(const DocumentNode& width, const DocumentNode& height) {
-  const auto side = [](const DocumentNode& node) {
-    const long pixels = node.integer();
-    if (pixels < 1 || pixels > max_image_side) {
-      node.fail("{} pixels; 1 to {} is accepted", pixels, max_image_side);
+ImageSize image_size(const Place& place, double width, double height) {
+  for (const double side : {width, height}) {
+    if (!(side >= 1 && side <= max_image_side && side == std::floor(side))) {
+      place.fail("{} pixels; 1 to {} is accepted", side, max_image_side);
     }
-    return static_cast<int>(pixels);
-  };
-  return {side(width), side(height)};
+  }
+  const ImageSize size{static_cast<int>(width), static_cast<int>(height)};
+  if (const std::string why = image_size_refusal(size); !why.empty()) place.fail_with(why);
+  return size;
+}
+
+ImageSize image_size(const DocumentNode& width, const DocumentNode& height) {
+  const double across = static_cast<double>(width.integer()), down = static_cast<double>(height.integer());
+  // Each side fails at its own place.
+  image_size(width.place(), across, 1.0);
+  return image_size(height.place(), across, down);
 }
 
 ImageSize image_size(const DocumentNode& both) {

@@ -34,7 +34,9 @@ bool is_whole_panorama(const Lens& lens);
 /// The root of a document that outlives it.
 DocumentNode root_of(const Document& document);
 
-/// The sizes of an image, within 1 and max_image_side.
+/// Two numbers as an image's size; fails at `place` unless they are whole and there are such images.
+ImageSize image_size(const Place& place, double width, double height);
+
 ImageSize image_size(const DocumentNode& width, const DocumentNode& height);
 /// [width, height]
 ImageSize image_size(const DocumentNode& both);

@@ -66,10 +66,12 @@ const CameraFormat& format_to_write(const std::filesystem::path& path, std::stri
 
 std::span<const CameraFormat* const> camera_formats() { return formats; }
 
-CameraFile CameraFile::load(const std::filesystem::path& path) { return parse(path.string(), read_file(path)); }
+CameraFile CameraFile::load(const std::filesystem::path& path, const Limits& limits) {
+  return parse(path.string(), read_file(path, limits, &Limits::document_bytes), limits);
+}
 
-CameraFile CameraFile::parse(std::string file, std::string_view text) {
-  const auto document = std::make_shared<const Document>(parse_document(std::move(file), text));
+CameraFile CameraFile::parse(std::string file, std::string_view text, const Limits& limits) {
+  const auto document = std::make_shared<const Document>(parse_document(std::move(file), text, limits));
   std::vector<const CameraFormat*> found;
   for (const CameraFormat* format : formats) {
     if (format->recognises(*document)) found.push_back(format);
@@ -132,8 +134,8 @@ std::optional<CameraFileText> camera_file_text(std::string_view text) {
   return CameraFileText{text.substr(0, hash), std::string(text.substr(hash + 1))};
 }
 
-Camera load_camera(const CameraFileText& text) {
-  const CameraFile file = CameraFile::load(text.path);
+Camera load_camera(const CameraFileText& text, const Limits& limits) {
+  const CameraFile file = CameraFile::load(text.path, limits);
   return text.name ? file.camera(*text.name) : file.camera();
 }
 

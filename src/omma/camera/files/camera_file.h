@@ -21,10 +21,10 @@ struct CameraFormat;
 class CameraFile {
  public:
   /// Knows the format by the content. Throws InputError, with file, line and key where there are, when it is none that
-  /// is known or could be several, and when nothing in it is a camera.
-  static CameraFile load(const std::filesystem::path& path);
+  /// is known or could be several, when nothing in it is a camera, and when it is beyond the limits.
+  static CameraFile load(const std::filesystem::path& path, const Limits& limits = {});
   /// The same of a text; `file` begins the messages.
-  static CameraFile parse(std::string file, std::string_view text);
+  static CameraFile parse(std::string file, std::string_view text, const Limits& limits = {});
 
   /// Its name on the command line: "kalibr".
   const char* format() const;
@@ -57,7 +57,7 @@ struct CameraFileText {
 std::optional<CameraFileText> camera_file_text(std::string_view text);
 
 /// Throws CommandError and InputError as CameraFile does.
-Camera load_camera(const CameraFileText& text);
+Camera load_camera(const CameraFileText& text, const Limits& limits = {});
 
 struct NamedCamera {
   std::string name;

@@ -54,23 +54,20 @@ double number(const Place& place, const std::vector<std::string>& words, size_t 
   return number_at(named, words[i]);
 }
 
-int side(const Place& place, const std::string& word, const char* key) {
+ImageSize size_of(const Place& place, const std::string& width, const std::string& height, const char* key) {
   Place named = place;
   named.key = key;
-  const long pixels = integer_at(named, word);
-  if (pixels < 1 || pixels > max_image_side) {
-    named.fail("{} pixels; 1 to {} is accepted", pixels, max_image_side);
-  }
-  return static_cast<int>(pixels);
+  return image_size(named, static_cast<double>(integer_at(named, width)),
+                    static_cast<double>(integer_at(named, height)));
 }
 
 Camera read_camera(const Place& place, const std::vector<std::string>& words) {
-  const ImageSize size{side(place, words[2], "WIDTH"), side(place, words[3], "HEIGHT")};
+  const ImageSize size = size_of(place, words[2], words[3], "WIDTH HEIGHT");
   if (words[1] == panorama) {
     if (words.size() > 4) {
       const size_t given = words.size() - 4;
       if (given != 2) place.fail("{} has {} parameters; width and height are expected", words[1], given);
-      const ImageSize again{side(place, words[4], "PARAMS"), side(place, words[5], "PARAMS")};
+      const ImageSize again = size_of(place, words[4], words[5], "PARAMS");
       if (again != size) place.fail("the parameters say {} x {}", again.width, again.height);
     }
     return to_equirectangular(place, size);

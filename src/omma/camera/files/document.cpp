@@ -11,10 +11,6 @@
 namespace omma {
 namespace {
 
-// Real calibrations come to a few hundred kilobytes, those with a pose for each of thousands of pictures to a few
-// megabytes, a camera of a hundred thousand pieces to thirty.
-constexpr size_t max_bytes = size_t{64} << 20;
-
 // What a message quotes of a file's content.
 std::string in_quotes(std::string_view text) {
   constexpr size_t longest = 40;
@@ -23,14 +19,18 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("'{}{}'", shown, text.size() > longest ? "…" : "");
 }
 
-std::vector<Line> parse_lines(std::string_view text) {
+std::vector<Line> parse_lines(const Place& file, std::string_view text, const Limits& limits) {
   std::vector<Line> lines;
+  ValueCounter values(file, limits);
   std::istringstream stream{std::string(text)};
   std::string raw;
   for (int number = 1; std::getline(stream, raw); ++number) {
     Line line{number, {}};
     std::istringstream words(raw.substr(0, raw.find('#')));
-    for (std::string word; words >> word;) line.words.push_back(word);
+    for (std::string word; words >> word;) {
+      values.add(number);
+      line.words.push_back(word);
+    }
     if (!line.words.empty()) lines.push_back(std::move(line));
   }
   return lines;
@@ -64,12 +64,12 @@ void Place::fail_with(const std::string& message) const {
   throw InputError("{}: {}", where, message);
 }
 
-Document parse_document(std::string file, std::string_view text) {
+Document parse_document(std::string file, std::string_view text, const Limits& limits) {
   Document document;
   document.file = std::move(file);
   const Place whole = document.place();
-  if (text.size() > max_bytes) {
-    whole.fail("has {} bytes; a calibration file of up to {} is accepted", text.size(), max_bytes);
+  if (text.size() > limits.document_bytes) {
+    whole.fail("has {} bytes: {}", text.size(), limit_text(limits, &Limits::document_bytes));
   }
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (text.find('\0') != std::string_view::npos) whole.fail("is no text file: it has a zero byte");
@@ -78,16 +78,16 @@ Document parse_document(std::string file, std::string_view text) {
   document.syntax = syntax_of(first);
   switch (document.syntax) {
     case Syntax::json:
-      document.root = parse_json(whole, text);
+      document.root = parse_json(whole, text, limits);
       break;
     case Syntax::xml:
-      document.root = parse_xml(whole, text);
+      document.root = parse_xml(whole, text, limits);
       break;
     case Syntax::yaml:
-      document.root = parse_yaml(whole, text);
+      document.root = parse_yaml(whole, text, limits);
       break;
     case Syntax::lines:
-      document.lines = parse_lines(text);
+      document.lines = parse_lines(whole, text, limits);
       break;
   }
   return document;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "omma/base/error.h"
+#include "omma/base/limits.h"
 
 namespace omma {
 
@@ -64,8 +65,8 @@ struct Document {
 };
 
 /// Parses by content: { or [ begins JSON, < begins XML, a digit or a sign plain lines, anything else YAML. Throws
-/// InputError when the text is none of them, is too large, too deep, or names a key twice. YAML's anchors are refused.
-Document parse_document(std::string file, std::string_view text);
+/// InputError when the text is none of them, is beyond the limits, or names a key twice. YAML's anchors are refused.
+Document parse_document(std::string file, std::string_view text, const Limits& limits = {});
 
 /// A value together with its place. Every function that finds something else than it asks for throws InputError.
 class DocumentNode {

@@ -61,13 +61,8 @@ Camera read_camera(const Document& document) {
   coefficients.insert(coefficients.end(), affine.begin(), affine.end());
   const Place size_place = document.place(document.lines[4].number, parts[4]);
   const std::vector<double> size = numbers(document, 4, 2);
-  for (const double side : size) {
-    if (!(side >= 1 && side <= max_image_side && side == static_cast<int>(side))) {
-      size_place.fail("{} pixels; 1 to {} is accepted", side, max_image_side);
-    }
-  }
   return to_camera(place, {.model = "ocam",
-                           .size = {static_cast<int>(size[1]), static_cast<int>(size[0])},
+                           .size = image_size(size_place, size[1], size[0]),
                            .centre = glm::dvec2(centre[1], centre[0]) + centre_of_first_pixel,
                            .parameters = coefficients});
 }

@@ -42,12 +42,7 @@ ImageSize size_of(const DocumentNode& root) {
   if (const auto both = root.find_any({"image_size", "imageSize", "Image_Size"})) {
     if (both->is_list()) return image_size(*both);
     const std::vector<double> sides = both->numbers(2);
-    for (const double side : sides) {
-      if (!(side >= 1 && side <= max_image_side && side == static_cast<int>(side))) {
-        both->fail("{} pixels; 1 to {} is accepted", side, max_image_side);
-      }
-    }
-    return {static_cast<int>(sides[0]), static_cast<int>(sides[1])};
+    return image_size(both->place(), sides[0], sides[1]);
   }
   const auto width = root.find_any({"image_width", "Image_Width", "imageWidth", "width"});
   const auto height = root.find_any({"image_height", "Image_Height", "imageHeight", "height"});

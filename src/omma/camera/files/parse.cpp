@@ -4,6 +4,12 @@
 
 namespace omma {
 
+void ValueCounter::fail(int line) {
+  place_.line = line;
+  place_.fail("more than {} values and keys: {}", limits_.document_values,
+              limit_text(limits_, &Limits::document_values));
+}
+
 void TreeBuilder::fail(int line, const std::string& message) const {
   Place place = place_;
   place.line = line;
@@ -11,8 +17,10 @@ void TreeBuilder::fail(int line, const std::string& message) const {
 }
 
 void TreeBuilder::open(Value::Kind kind, int line, std::string tag) {
-  if (open_.size() >= max_tree_depth) {
-    fail(line, fmt::format("is nested more than {} levels deep", max_tree_depth));
+  values_.add(line);
+  if (open_.size() >= limits_.document_depth) {
+    fail(line, fmt::format("is nested more than {} levels deep: {}", limits_.document_depth,
+                           limit_text(limits_, &Limits::document_depth)));
   }
   if (!open_.empty() && open_.back().value.kind == Value::Kind::map && !open_.back().has_key) {
     fail(line, "a key is expected to be a text");
@@ -45,12 +53,14 @@ void TreeBuilder::refuse_repeated_keys(const Value& map) const {
 }
 
 void TreeBuilder::null(int line) {
+  values_.add(line);
   Value value;
   value.line = line;
   add(std::move(value));
 }
 
 void TreeBuilder::scalar(std::string text, bool quoted, int line) {
+  values_.add(line);
   Value value;
   value.kind = Value::Kind::scalar;
   value.text = std::move(text);

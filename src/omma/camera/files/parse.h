@@ -1,4 +1,4 @@
-// Texts to trees. Each throws InputError with the line for what is not well-formed, nested too deeply, or has a key
+// Texts to trees. Each throws InputError with the line for what is not well-formed, beyond the limits, or has a key
 // twice.
 #pragma once
 
@@ -8,17 +8,34 @@
 
 namespace omma {
 
-Value parse_json(const Place& file, std::string_view text);
+Value parse_json(const Place& file, std::string_view text, const Limits& limits);
 /// Also OpenCV's `%YAML:1.0`, which is no YAML.
-Value parse_yaml(const Place& file, std::string_view text);
+Value parse_yaml(const Place& file, std::string_view text, const Limits& limits);
 /// Elements as members, which may repeat; attributes as members named `@attribute`.
-Value parse_xml(const Place& file, std::string_view text);
+Value parse_xml(const Place& file, std::string_view text, const Limits& limits);
+
+/// Counts what a text holds while it is parsed, and fails where it is too much.
+class ValueCounter {
+ public:
+  ValueCounter(Place file, const Limits& limits) : place_(std::move(file)), limits_(limits) {}
+
+  void add(int line) {
+    if (++count_ > limits_.document_values) fail(line);
+  }
+
+ private:
+  [[noreturn]] void fail(int line);
+
+  Place place_;
+  const Limits& limits_;
+  size_t count_ = 0;
+};
 
 /// Builds a tree from what a parser meets. In a map every second value is a key.
 class TreeBuilder {
  public:
-  explicit TreeBuilder(Place file, bool repeated_keys = false)
-      : place_(std::move(file)), repeated_keys_(repeated_keys) {}
+  TreeBuilder(const Place& file, const Limits& limits, bool repeated_keys = false)
+      : place_(file), limits_(limits), values_(file, limits), repeated_keys_(repeated_keys) {}
 
   void begin_map(int line, std::string tag = {});
   void begin_list(int line, std::string tag = {});
@@ -41,13 +58,12 @@ class TreeBuilder {
   void refuse_repeated_keys(const Value& map) const;
 
   Place place_;
+  const Limits& limits_;
+  ValueCounter values_;
   bool repeated_keys_;
   Value root_;
   std::vector<Open> open_;
   bool done_ = false;
 };
-
-/// Deeper trees are refused: parsers and readers recurse.
-inline constexpr size_t max_tree_depth = 32;
 
 }  // namespace omma

@@ -94,8 +94,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
 
 }  // namespace
 
-Value parse_json(const Place& file, std::string_view text) {
-  TreeBuilder tree(file);
+Value parse_json(const Place& file, std::string_view text, const Limits& limits) {
+  TreeBuilder tree(file, limits);
   LineCounter counter;
   Handler handler(tree, counter);
   const CountingIterator begin(text.data(), &counter), end(text.data() + text.size(), &counter);

@@ -54,9 +54,16 @@ void add_element(TreeBuilder& tree, const Lines& lines, const pugi::xml_node& el
 
 }  // namespace
 
-Value parse_xml(const Place& file, std::string_view text) {
+Value parse_xml(const Place& file, std::string_view text, const Limits& limits) {
+  // pugixml makes its own tree first, of no more than a node for each of these.
+  ValueCounter values(file, limits);
+  int line = 1;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    if (c == '<' || c == '=') values.add(line);
+  }
   const Lines lines(text);
-  TreeBuilder tree(file, true);
+  TreeBuilder tree(file, limits, true);
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   if (!result) tree.fail(lines.of(result.offset), fmt::format("is no XML: {}", result.description()));

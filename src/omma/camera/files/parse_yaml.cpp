@@ -55,13 +55,13 @@ class Handler : public YAML::EventHandler {
 
 }  // namespace
 
-Value parse_yaml(const Place& file, std::string_view text) {
+Value parse_yaml(const Place& file, std::string_view text, const Limits& limits) {
   // yaml-cpp's scanner needs time that grows with the square of some malformed texts.
   constexpr size_t max_yaml_bytes = size_t{1} << 20;
   if (text.size() > max_yaml_bytes) {
     file.fail("has {} bytes; YAML of up to {} is accepted", text.size(), max_yaml_bytes);
   }
-  TreeBuilder tree(file);
+  TreeBuilder tree(file, limits);
   Handler handler(tree);
   std::istringstream stream(without_opencv_header(text));
   try {

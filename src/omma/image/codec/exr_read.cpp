@@ -65,9 +65,9 @@ std::vector<ChannelPlace> channels_of(const Imf::Header& header) {
 }
 
 template <typename T>
-std::vector<T> read_as(Imf::InputPart& part, Imf::PixelType type, const Imath::Box2i& window,
-                       const std::vector<ChannelPlace>& places, const Pixels& pixels) {
-  std::vector<T> samples(pixels.count());
+SampleVector<T> read_as(Imf::InputPart& part, Imf::PixelType type, const Imath::Box2i& window,
+                        const std::vector<ChannelPlace>& places, const Pixels& pixels) {
+  SampleVector<T> samples(pixels.count());
   const size_t step = size_t(pixels.stored()) * sizeof(T), row = size_t(pixels.info.size.width) * step;
   Imf::FrameBuffer target;
   for (int c = 0; c < pixels.stored(); ++c) {

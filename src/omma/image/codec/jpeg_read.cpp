@@ -45,7 +45,7 @@ Pixels decode_jpeg(std::string_view bytes, const Accept& accept) {
   pixels.info.size = {static_cast<int>(jpeg.image_width), static_cast<int>(jpeg.image_height)};
   pixels.info.components = jpeg.num_components == 1 ? 1 : 3;
   accept(pixels.info);
-  std::vector<uint8_t> samples(pixels.count());
+  SampleVector<uint8_t> samples(pixels.count());
   const size_t row = samples.size() / jpeg.image_height;
   std::vector<uint8_t> inks(cmyk ? size_t{4} * jpeg.image_width : 0);
   reader.step([&] {

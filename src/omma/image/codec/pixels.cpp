@@ -16,13 +16,13 @@ uint8_t to_8_bits(uint32_t value) { return static_cast<uint8_t>(std::lround(255.
 
 }  // namespace
 
-std::vector<uint8_t> to_8_bits(Pixels pixels) {
+SampleVector<uint8_t> to_8_bits(Pixels pixels) {
   return std::visit(
-      []<typename T>(std::vector<T>& samples) {
+      []<typename T>(SampleVector<T>& samples) {
         if constexpr (std::is_same_v<T, uint8_t>) {
           return std::move(samples);
         } else {
-          std::vector<uint8_t> bytes(samples.size());
+          SampleVector<uint8_t> bytes(samples.size());
           std::transform(samples.begin(), samples.end(), bytes.begin(), [](T value) { return to_8_bits(value); });
           return bytes;
         }

@@ -57,15 +57,15 @@ Pixels decode_png(std::string_view bytes, const Accept& accept) {
   pixels.info.components = layout.components;
   pixels.info.alpha = layout.components % 2 == 0 ? layout.components - 1 : -1;
   accept(pixels.info);
-  const auto decode = [&]<typename T>(std::vector<T> samples) {
+  const auto decode = [&]<typename T>(SampleVector<T> samples) {
     check(spng_decode_image(reader.get(), samples.data(), samples.size() * sizeof(T), layout.format, SPNG_DECODE_TRNS),
           "PNG");
     pixels.samples = std::move(samples);
   };
   if (header.bit_depth == 16) {
-    decode(std::vector<uint16_t>(pixels.count()));
+    decode(SampleVector<uint16_t>(pixels.count()));
   } else {
-    decode(std::vector<uint8_t>(pixels.count()));
+    decode(SampleVector<uint8_t>(pixels.count()));
   }
   check(spng_decode_chunks(reader.get()), "PNG");  // the mark of the end is part of a whole file
   return pixels;

@@ -55,11 +55,11 @@ constexpr stbi_io_callbacks callbacks{Source::read, Source::skip, Source::at_end
 }
 
 template <typename T>
-std::vector<T> taken(T* values, size_t count, const Source& source) {
+SampleVector<T> taken(T* values, size_t count, const Source& source) {
   const std::unique_ptr<T, decltype(&stbi_image_free)> owner(values, stbi_image_free);
   if (values == nullptr) fail();
   if (source.beyond_end) throw InputError("the file is truncated");
-  return std::vector<T>(values, values + count);
+  return SampleVector<T>(values, values + count);
 }
 
 }  // namespace
@@ -78,6 +78,13 @@ Pixels decode_by_stb(std::string_view bytes, const Accept& accept) {
   if (size.width < 1 || size.height < 1) throw InputError("the file is truncated");
   if (pixels.info.components % 2 == 0) pixels.info.alpha = pixels.info.components - 1;
   accept(pixels.info);
+  // GIF's codes stand for the longest runs, 4096 pixels in a byte and a half. Without this its decoder would fill what
+  // a header claims before it reads on.
+  constexpr size_t most_pixels_a_byte = 4096;
+  if (size_t(size.width) * size_t(size.height) / most_pixels_a_byte > bytes.size()) {
+    throw InputError("the file is truncated: {} bytes cannot hold {} x {} pixels", bytes.size(), size.width,
+                     size.height);
+  }
   Source kind{bytes}, source{bytes};
   int width = 0, height = 0, in_file = 0;
   if (stbi_is_hdr_from_callbacks(&callbacks, &kind)) {

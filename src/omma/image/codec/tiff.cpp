@@ -112,7 +112,7 @@ int alpha_of(TIFF* file, const Layout& layout) {
 template <typename T>
 struct Copier {
   Pixels& pixels;
-  std::vector<T>& samples;
+  SampleVector<T>& samples;
   int in_buffer;  ///< components of a pixel there
 
   void row(const T* from, int x, int y, int count, int plane) const {
@@ -127,9 +127,9 @@ void check(bool fine, const Source& source) {
 }
 
 template <typename T>
-std::vector<T> read_samples(TIFF* file, const Layout& layout, Pixels& pixels, const Source& source) {
+SampleVector<T> read_samples(TIFF* file, const Layout& layout, Pixels& pixels, const Source& source) {
   const ImageSize size = pixels.info.size;
-  std::vector<T> samples(pixels.count());
+  SampleVector<T> samples(pixels.count());
   const Copier<T> copier{pixels, samples, layout.planes ? 1 : layout.samples};
   const int planes = layout.planes ? pixels.stored() : 1;
   if (!layout.tiles) {
@@ -147,7 +147,7 @@ std::vector<T> read_samples(TIFF* file, const Layout& layout, Pixels& pixels, co
   TIFFGetField(file, TIFFTAG_TILEWIDTH, &width);
   TIFFGetField(file, TIFFTAG_TILELENGTH, &height);
   check(width > 0 && height > 0 && width <= 65536 && height <= 65536, source);
-  std::vector<T> tile(size_t(width) * height * size_t(copier.in_buffer));
+  SampleVector<T> tile(size_t(width) * height * size_t(copier.in_buffer));
   check(size_t(TIFFTileSize64(file)) <= tile.size() * sizeof(T), source);
   for (int plane = 0; plane < planes; ++plane) {
     for (int y0 = 0; y0 < size.height; y0 += int(height)) {
@@ -164,8 +164,8 @@ std::vector<T> read_samples(TIFF* file, const Layout& layout, Pixels& pixels, co
 }
 
 template <typename T>
-std::vector<T> read_plain(TIFF* file, const Layout& layout, Pixels& pixels, const Source& source) {
-  std::vector<T> samples = read_samples<T>(file, layout, pixels, source);
+SampleVector<T> read_plain(TIFF* file, const Layout& layout, Pixels& pixels, const Source& source) {
+  SampleVector<T> samples = read_samples<T>(file, layout, pixels, source);
   if (layout.photometric == PHOTOMETRIC_MINISWHITE) {
     const T white = std::is_same_v<T, float> ? T(1) : std::numeric_limits<T>::max();
     for (size_t i = 0; i < samples.size(); i += size_t(pixels.stored())) samples[i] = T(white - samples[i]);
@@ -174,13 +174,13 @@ std::vector<T> read_plain(TIFF* file, const Layout& layout, Pixels& pixels, cons
 }
 
 /// libtiff's own way to 8-bit RGB. Its rows begin at the bottom where the file does not say otherwise.
-std::vector<uint8_t> read_rgb(TIFF* file, const Pixels& pixels, const Source& source) {
+SampleVector<uint8_t> read_rgb(TIFF* file, const Pixels& pixels, const Source& source) {
   const ImageSize size = pixels.info.size;
-  std::vector<uint32_t> packed(size_t(size.width) * size_t(size.height));
+  SampleVector<uint32_t> packed(size_t(size.width) * size_t(size.height));
   check(TIFFReadRGBAImageOriented(file, uint32_t(size.width), uint32_t(size.height), packed.data(),
                                   tag(file, TIFFTAG_ORIENTATION), 1) == 1,
         source);
-  std::vector<uint8_t> samples(3 * packed.size());
+  SampleVector<uint8_t> samples(3 * packed.size());
   for (size_t i = 0; i < packed.size(); ++i) {
     samples[3 * i] = TIFFGetR(packed[i]);
     samples[3 * i + 1] = TIFFGetG(packed[i]);

@@ -19,7 +19,7 @@ Pixels decode_webp(std::string_view bytes, const Accept& accept) {
   pixels.info.components = features.has_alpha != 0 ? 4 : 3;
   pixels.info.alpha = features.has_alpha != 0 ? 3 : -1;
   accept(pixels.info);
-  std::vector<uint8_t> samples(pixels.count());
+  SampleVector<uint8_t> samples(pixels.count());
   if (features.has_animation == 0) {
     const int row = features.width * pixels.stored();
     const auto decode = features.has_alpha != 0 ? WebPDecodeRGBAInto : WebPDecodeRGBInto;

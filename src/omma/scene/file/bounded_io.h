@@ -1,10 +1,18 @@
-// Reading for assimp, with an end: its line reader reads a PLY whose header is cut off over and over again.
+// Files for assimp: those that the scene may name, and with an end, for its line reader reads a PLY whose header is cut
+// off over and over again.
 #pragma once
 
 #include <assimp/DefaultIOSystem.h>
 
+#include <algorithm>
 #include <assimp/IOStream.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "omma/base/error.h"
+#include "omma/base/file.h"
+#include "omma/scene/file/reach.h"
 
 namespace omma::file {
 
@@ -38,13 +46,41 @@ class BoundedStream : public Assimp::IOStream {
 
 class BoundedFiles : public Assimp::DefaultIOSystem {
  public:
+  BoundedFiles(std::string scene, Reach reach, const Limits& limits)
+      : scene_(std::move(scene)), reach_(std::move(reach)), limits_(limits) {}
+
+  // assimp's own opens the file, and would wait at a pipe.
+  bool Exists(const char* path) const override {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) && readable(path);
+  }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (!Exists(path)) return nullptr;
     Assimp::IOStream* stream = DefaultIOSystem::Open(path, mode);
     return stream ? new BoundedStream(plain_, stream) : nullptr;
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
+  /// What is there and was not opened, each with its reason.
+  const std::vector<std::string>& refusals() const { return refusals_; }
+
  private:
+  bool readable(const std::string& path) const {
+    try {
+      // The scene's own name is the user's.
+      if (path != scene_ && !reach_.holds(path)) throw InputError("{}: {}", path, reach_.why_not());
+      require_readable(path, limits_);
+      return true;
+    } catch (const InputError& error) {
+      if (std::ranges::find(refusals_, error.what()) == refusals_.end()) refusals_.emplace_back(error.what());
+      return false;
+    }
+  }
+
+  std::string scene_;
+  Reach reach_;
+  Limits limits_;
+  mutable std::vector<std::string> refusals_;
   Assimp::DefaultIOSystem plain_;
 };
 

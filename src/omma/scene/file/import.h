@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "omma/base/limits.h"
+#include "omma/scene/file/reach.h"
 #include "omma/scene/scene.h"
 
 namespace omma::file {
@@ -28,9 +30,12 @@ struct Repairs {
 
 /// A file being turned into a scene.
 struct Import {
-  Import(std::filesystem::path file, const aiScene& read) : path(std::move(file)), source(read) {}
+  Import(std::filesystem::path file, const aiScene& read, const ReadOptions& options)
+      : path(std::move(file)), reach(path, options.root), limits(options.limits), source(read) {}
 
   std::filesystem::path path;
+  Reach reach;
+  Limits limits;
   const aiScene& source;
   /// glTF declares what the other formats leave open: sidedness, alpha, linear colours, light units.
   bool gltf = false;
@@ -41,6 +46,8 @@ struct Import {
   std::map<unsigned, int> material_of_source;
   std::vector<unsigned> uv_channel;  ///< of each of scene.materials
   std::map<std::string, int> texture_of_key;
+  std::map<std::string, int> texture_of_picture;  ///< the first of each file or embedded picture; -1: none can be used
+  size_t texels = 0;                              ///< of scene.textures
 };
 
 inline glm::vec3 to_vec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
@@ -56,7 +63,8 @@ Mesh import_mesh(Import& import, const aiMesh& source);
 /// Index into scene.materials; only materials that a mesh uses are read.
 int import_material(Import& import, unsigned source_index);
 
-/// Index into scene.textures. A picture that is missing or broken becomes a checker of magenta and black.
+/// Index into scene.textures. A picture that is missing, broken, out of reach or beyond the limits becomes a checker of
+/// magenta and black.
 int import_texture(Import& import, const std::string& name, bool srgb, Texture::Wrap wrap_u, Texture::Wrap wrap_v);
 
 void import_lights_and_cameras(Import& import);

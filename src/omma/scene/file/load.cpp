@@ -8,12 +8,13 @@
 #include <assimp/LogStream.hpp>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "omma/base/error.h"
+#include "omma/base/file.h"
 #include "omma/scene/file/bounded_io.h"
 #include "omma/scene/file/import.h"
+#include "omma/scene/file/json_depth.h"
 
 namespace omma::file {
 
@@ -119,10 +120,19 @@ std::vector<Placement> import_nodes(Import& import, double scale) {
   return placements;
 }
 
+/// Adds to a sum that has a limit; throws InputError beyond it, so that nothing is made that will be refused.
+void add(const Import& import, size_t& sum, size_t more, size_t Limits::*limit, const char* what) {
+  sum += more;
+  if (sum > import.limits.*limit) {
+    throw InputError("{}: {} {} at least: {}", import.path.string(), sum, what, limit_text(import.limits, limit));
+  }
+}
+
 void import_instances(Import& import, const std::vector<Placement>& placements) {
   Scene& scene = import.scene;
   std::map<unsigned, int> mesh_of_source;
-  size_t triangles = 0;
+  size_t triangles = 0, vertices = 0, instances = 0;
+  add(import, instances, placements.size(), &Limits::scene_instances, "meshes placed by nodes");
   int object = -1, object_node = -1;
   for (const Placement& placement : placements) {
     if (placement.mesh >= import.source.mNumMeshes) {
@@ -130,8 +140,13 @@ void import_instances(Import& import, const std::vector<Placement>& placements) 
                        placement.mesh, import.source.mNumMeshes);
     }
     const aiMesh& source = *import.source.mMeshes[placement.mesh];
+    const auto add_vertices = [&] {
+      add(import, vertices, size_t{source.mNumVertices} * (size_t{source.mNumAnimMeshes} + 1), &Limits::scene_vertices,
+          "vertices of meshes and their morph targets");
+    };
     auto [entry, fresh] = mesh_of_source.try_emplace(placement.mesh, static_cast<int>(scene.meshes.size()));
     if (fresh) {
+      add_vertices();
       Mesh mesh = import_mesh(import, source);
       if (mesh.triangles.empty()) {
         entry->second = -1;
@@ -143,6 +158,7 @@ void import_instances(Import& import, const std::vector<Placement>& placements) 
     int mesh = entry->second;
     if (!fresh && source.mNumAnimMeshes > 0) {
       // Two nodes may morph one mesh differently, so each has its own.
+      add_vertices();
       scene.meshes.push_back(Mesh(scene.meshes[mesh]));
       mesh = static_cast<int>(scene.meshes.size()) - 1;
     }
@@ -155,11 +171,8 @@ void import_instances(Import& import, const std::vector<Placement>& placements) 
     instance.node = placement.node;
     instance.object = object;
     scene.instances.push_back(instance);
-    triangles += scene.meshes[mesh].triangles.size();
-  }
-  if (triangles > static_cast<size_t>(std::numeric_limits<int32_t>::max())) {
-    throw InputError("{}: {} triangles over all instances; at most {} can be told apart", import.path.string(),
-                     triangles, std::numeric_limits<int32_t>::max());
+    add(import, triangles, scene.meshes[mesh].triangles.size(), &Limits::scene_triangles,
+        "triangles over all instances");
   }
 }
 
@@ -221,8 +234,8 @@ void set_default_view(Scene& scene) {
   scene.default_is_guess = true;
 }
 
-void require_readable(const Assimp::Importer& importer, const std::filesystem::path& path,
-                      const std::string& extension) {
+void require_scene_file(const Assimp::Importer& importer, const std::filesystem::path& path,
+                        const std::string& extension) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     throw InputError("scene file '{}' does not exist", path.string());
@@ -246,13 +259,17 @@ void require_readable(const Assimp::Importer& importer, const std::filesystem::p
 
 namespace omma {
 
-Scene load_scene_file(const std::filesystem::path& path) {
+Scene load_scene_file(const std::filesystem::path& path, const ReadOptions& options) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   Assimp::Importer importer;
-  importer.SetIOHandler(new file::BoundedFiles);  // the importer owns it
-  file::require_readable(importer, path, extension);
+  auto* const files = new file::BoundedFiles(path.string(), file::Reach(path, options.root), options.limits);
+  importer.SetIOHandler(files);  // the importer owns it
+  file::require_scene_file(importer, path, extension);
+  require_readable(path, options.limits);
+  const bool gltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
+  if (gltf) file::require_shallow_json(path, options.limits);
   // Checked between reading and processing: assimp trusts what its readers made of a file, and its own validation
   // refuses harmless things, an STL solid without faces for one.
   file::IndexComplaints complaints;
@@ -268,12 +285,16 @@ Scene load_scene_file(const std::filesystem::path& path) {
     source = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_FlipUVs | aiProcess_TransformUVCoords);
   }
   if (!source || !source->mRootNode) {
-    const std::string why = importer.GetErrorString();
-    throw InputError("scene file '{}' cannot be read as {}: {}", path.string(), extension.substr(1),
-                     why.empty() ? "it holds no scene" : why);
+    std::string why = importer.GetErrorString();
+    if (why.empty()) why = "it holds no scene";
+    for (const std::string& refusal : files->refusals()) why += "; " + refusal;
+    throw InputError("scene file '{}' cannot be read as {}: {}", path.string(), extension.substr(1), why);
   }
-  file::Import import(path, *source);
-  import.gltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
+  for (const std::string& refusal : files->refusals()) {
+    warn(fmt::format("{}: a file that it names is not read: {}", path.string(), refusal));
+  }
+  file::Import import(path, *source, options);
+  import.gltf = gltf;
   import.scene.name = path.filename().string();
   const auto placements = file::import_nodes(import, file::metres_per_unit(*source, extension == ".fbx"));
   file::import_instances(import, placements);

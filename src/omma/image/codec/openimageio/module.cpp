@@ -28,7 +28,7 @@ extern "C" void omma_openimageio_decode(std::string_view bytes, const std::strin
   }
   pixels.info = {{spec.width, spec.height}, spec.nchannels, spec.alpha_channel};
   accept(pixels.info);
-  std::vector<uint8_t> samples(pixels.count());
+  SampleVector<uint8_t> samples(pixels.count());
   if (!input->read_image(0, 0, 0, pixels.stored(), OIIO::TypeDesc::UINT8, samples.data())) {
     throw InputError("{}", input->geterror());
   }
