@@ -1,5 +1,6 @@
 // A prepared scene as its callers meet it: refusals, several at a time, scenes and cameras that come and go.
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -136,6 +137,44 @@ TEST_F(PreparedSceneTest, ARigInOneCallEqualsItsCamerasOneByOne) {
   }
 }
 
+TEST_F(PreparedSceneTest, WhatIsStoppedHalfWayHarmsNoPictureAfterIt) {
+  const Scene room = load_scene("room");
+  const PreparedScene fresh(device(), room);
+  const Channel wanted[] = {Channel::color};
+  std::vector<Camera> cameras;
+  for (int i = 0; i < 5; ++i) {
+    cameras.push_back(make_camera("equirectangular:yaw_deg=" + std::to_string(i), ImageSize{160, 80}));
+  }
+  const glm::dmat4 pose = default_pose(room);
+  const RenderOptions options{.technique = "visibility:cpu", .samples = 2, .shadows = Shadows::cube, .shadow_size = 64};
+  for (int wait = 0; wait < 8; ++wait) {
+    const PreparedScene stopped(device(), room);
+    std::vector<ByteImage> images(cameras.size(), ByteImage({160, 80}, 3));
+    std::vector<Shot> rig;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+      std::vector<uint8_t>& bytes = images[i].values;
+      rig.push_back({cameras[i], pose, {{Channel::color, {bytes.data(), bytes.size(), 0, PixelFormat::srgb8}}}});
+    }
+    std::stop_source source;
+    RenderOptions once = options;
+    once.stop = source.get_token();
+    std::thread hand([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(4 * wait));
+      source.request_stop();
+    });
+    try {
+      stopped.render(rig, once);
+    } catch (const Cancelled&) {
+    }
+    hand.join();
+    for (const Camera& camera : cameras) {
+      EXPECT_EQ(std::get<FloatImage>(stopped.render(camera, pose, wanted, options).at(Channel::color)).values,
+                std::get<FloatImage>(fresh.render(camera, pose, wanted, options).at(Channel::color)).values)
+          << wait;
+    }
+  }
+}
+
 TEST_F(PreparedSceneTest, StopsInEveryTechnique) {
   std::stop_source source;
   source.request_stop();
@@ -170,7 +209,11 @@ TEST_F(PreparedSceneTest, NoPictureHasAPartOfAChange) {
   const Camera camera = make_camera("perspective:fov_deg=90", ImageSize{64, 32});
   const Channel wanted[] = {Channel::object};
   std::set<int> seen;
-  for (int frame = 0; frame < 60; ++frame) {
+  // Two that draw all the time do not hold the host up.
+  std::thread other([&] {
+    while (!done) scene.render(camera, pose_, wanted, {});
+  });
+  for (int frame = 0; frame < 60 || (seen.size() < 2 && frame < 5000); ++frame) {
     const auto pictures = scene.render(camera, pose_, wanted, {});
     const auto& objects = std::get<IntImage>(pictures.at(Channel::object));
     const int left = *objects.at(16, 16), right = *objects.at(48, 16);
@@ -179,6 +222,8 @@ TEST_F(PreparedSceneTest, NoPictureHasAPartOfAChange) {
   }
   done = true;
   host.join();
+  other.join();
+  EXPECT_EQ(seen.size(), 2u);
 }
 
 TEST_F(PreparedSceneTest, EveryTechniqueFollowsInstancesAndMeshesThatComeAndGo) {
@@ -189,8 +234,12 @@ TEST_F(PreparedSceneTest, EveryTechniqueFollowsInstancesAndMeshesThatComeAndGo) 
     const Camera& camera = can_draw(technique, fisheye) ? fisheye : flat;
     PreparedScene followed(device(), make_ball_and_pane());
     const auto expect_as_made_anew = [&](const char* what) {
-      const RenderOptions options{
-          .technique = technique, .samples = 1, .shadows = Shadows::paraboloid, .shadow_size = 64};
+      const RenderOptions options{.technique = technique,
+                                  .samples = 1,
+                                  .shadows = Shadows::paraboloid,
+                                  .shadow_size = 64,
+                                  .reflect = 1,
+                                  .reflection_size = 32};
       const auto pictures = followed.render(camera, pose_, wanted, options);
       const PreparedScene anew(device(), followed.scene());
       const auto expected = anew.render(camera, pose_, wanted, options);

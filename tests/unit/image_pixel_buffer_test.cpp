@@ -70,6 +70,9 @@ TEST(PixelBufferTest, RefusesWhatThePictureDoesNotFitInto) {
   expect(refusal({Channel::id, {memory, 400, 0, PixelFormat::float32}}), "int32");
   expect(refusal({Channel::id, {memory + 1, 399, 0, PixelFormat::int32}}), "aligned");
   expect(refusal({Channel::id, {memory, 400, 22, PixelFormat::int32}}), "aligned");
+  // Steps whose products overflow.
+  expect(refusal({Channel::id, {memory, 400, size_t(-20), PixelFormat::int32}}), "more than can be counted");
+  expect(refusal({Channel::id, {memory, 400, size_t(1) << 63, PixelFormat::int32}}), "more than can be counted");
   check({Channel::color, {memory + 1, 47, 16, PixelFormat::srgb8}}, size);  // the last row has no need of all of it
 }
 

@@ -11,7 +11,7 @@ Error::Error(ErrorKind kind, fmt::string_view format, fmt::format_args values)
 
 namespace {
 
-std::mutex sink_mutex;
+std::recursive_mutex sink_mutex;  // a sink may warn
 std::function<void(const std::string&)> warning_sink;
 
 }  // namespace

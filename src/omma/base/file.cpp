@@ -62,8 +62,8 @@ std::string read_file(const fs::path& path, const Limits& limits, size_t Limits:
   std::string text;
   // What a file system calls its size is where it most likely ends: some say 0 of what they make up while it is read.
   std::error_code error;
-  size_t room = static_cast<size_t>(fs::file_size(path, error)) + 1;
-  if (error) room = 1;
+  const uintmax_t size = fs::file_size(path, error);
+  size_t room = error ? 1 : std::min<uintmax_t>(size, limits.*bytes) + 1;
   for (size_t end = 0;; room = 1U << 16) {
     text.resize(end + room);
     stream.read(text.data() + end, static_cast<std::streamsize>(room));

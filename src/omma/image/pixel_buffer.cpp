@@ -64,9 +64,13 @@ void check(const Output& output, ImageSize size) {
     throw CommandError("rows of channel '{}' are {} bytes apart, {} pixels of {} take {}", channel.name, step,
                        size.width, name_of(to.format), row);
   }
-  if (const size_t least = step * size_t(size.height - 1) + row; to.bytes < least) {
-    throw CommandError("memory of {} bytes for channel '{}', {} x {} pixels of {} take {}", to.bytes, channel.name,
-                       size.width, size.height, name_of(to.format), least);
+  // Not multiplied before it is known to be no more than there is.
+  const auto rows_below = size_t(size.height - 1);
+  if (to.bytes < row || (rows_below > 0 && step > (to.bytes - row) / rows_below)) {
+    throw CommandError(
+        "memory of {} bytes for channel '{}', {} x {} pixels of {}, rows {} bytes apart, take {}", to.bytes,
+        channel.name, size.width, size.height, name_of(to.format), step,
+        step > SIZE_MAX / size_t(size.height) ? "more than can be counted" : std::to_string(step * rows_below + row));
   }
   if (!is_encoded(to.format) && (reinterpret_cast<uintptr_t>(to.pixels) % 4 != 0 || step % 4 != 0)) {
     throw CommandError("memory of channel '{}' is not aligned: pixels of {} and rows begin at multiples of 4 bytes",

@@ -41,8 +41,10 @@ Image read_npy_image(const fs::path& path, const Limits& limits) {
     image.values = std::move(values);
     return image;
   };
-  if (array.integer) return image_of(read_npy<int32_t>(path, limits).values);
-  return image_of(array.values);
+  if (!array.integer) return image_of(array.values);
+  NpyArray<int32_t> whole = read_npy<int32_t>(path, limits);
+  if (whole.shape != shape) throw InputError("{}: has changed while it was read", path.string());
+  return image_of(std::move(whole.values));
 }
 
 Pixels decode(const fs::path& path, ImageFormat format, const Limits& limits) {

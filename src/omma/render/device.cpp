@@ -18,12 +18,13 @@ Device::Parts::~Parts() {
     const gl::Current current(gl->context);
     gl.reset();
   } catch (const MachineError&) {
-    // Current on another thread, where it ends with that.
+    // Current on another thread: nothing of it can be deleted here.
+    (void)gl.release();
   }
 }
 
 GlDevice& Device::Parts::open() {
-  if (!gl) gl.emplace();
+  if (!gl) gl = std::make_unique<GlDevice>();
   gpu = !gl->context.software();
   return *gl;
 }

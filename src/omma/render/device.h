@@ -8,7 +8,7 @@ namespace omma {
 
 /// Several scenes may be prepared on one device, and each lives on when the device goes. Any number of threads may draw
 /// at once: on the processor beside each other, by OpenGL, which has one context, in turn. What was current on a thread
-/// before is current again afterwards.
+/// by EGL before is current again afterwards.
 class Device {
  public:
   /// Opens nothing: the first picture that needs OpenGL does.

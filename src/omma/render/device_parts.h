@@ -1,6 +1,7 @@
 // What a device is made of, for those who draw with it.
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -22,7 +23,7 @@ struct GlDevice {
 struct Device::Parts {
   ~Parts();
   std::mutex mutex;  ///< of all that follows, and of everything that is drawn by OpenGL
-  std::optional<GlDevice> gl;
+  std::unique_ptr<GlDevice> gl;
   std::optional<bool> gpu;
 
   /// Both with the mutex held, by a thread that puts back what was current before (gl::Current).

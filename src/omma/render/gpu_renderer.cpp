@@ -71,11 +71,15 @@ void GpuRenderer::update(const SceneChanges& changes) {
   if (changes.listed || !changes.replaced.empty()) {
     // Techniques know the scene's parts by their numbers.
     techniques_.clear();
+    gpu_scene_.set_shadows(nullptr);
+    gpu_scene_.set_reflection(nullptr);
     shadow_maps_ = std::make_unique<ShadowMaps>(tools_, gpu_scene_);
     reflection_maps_ = std::make_unique<ReflectionMaps>(tools_, gpu_scene_);
     return;
   }
-  for (auto& [name, technique] : techniques_) technique->scene_changed(changes);
+  if (changes.of_shape()) {
+    for (auto& [name, technique] : techniques_) technique->scene_changed(changes);
+  }
   shadow_maps_->scene_changed(changes);
   reflection_maps_->scene_changed(changes);
 }
@@ -177,6 +181,7 @@ std::map<Channel, Image> GpuRenderer::render(const Camera& camera, const glm::dm
                                              const ChosenTechnique& chosen, RenderStats& stats) {
   const std::vector<Effect> effects = effects_of(options);
   const gl::Limits& limits = device_.context.limits();
+  gpu_scene_.set_hidden(std::nullopt);  // whatever a picture that failed has left
   Technique& technique = technique_for(chosen);
   const double shadow_ms = timed([&] { shadow_maps_->use(options.shadows, options.shadow_size); });
   const double reflection_ms = timed([&] { reflection_maps_->use(options); });

@@ -64,6 +64,7 @@ struct PreparedScene::Parts {
   ~Parts();
 
   std::shared_ptr<Device::Parts> device;
+  std::mutex turnstile;     ///< whoever waits for the next one goes before all who come later
   std::shared_mutex mutex;  ///< pictures share it, changes have it alone
   Scene scene;
   SceneChanges changes;  ///< that nothing has followed yet
@@ -93,16 +94,19 @@ PreparedScene::Parts::~Parts() {
     gpu.reset();
   } catch (const MachineError&) {
     // Current on another thread: what is left goes with it.
-    gpu.release();
+    (void)gpu.release();
   }
 }
 
 std::shared_lock<std::shared_mutex> PreparedScene::Parts::settle(RenderStats& stats) {
   for (;;) {
+    std::unique_lock turn(turnstile);
     std::shared_lock shared(mutex);
+    turn.unlock();
     if (changes.empty()) return shared;
     shared.unlock();
     isolated([&] {
+      const std::lock_guard next(turnstile);
       const std::unique_lock alone(mutex);
       if (changes.empty()) return;  // another thread was here before
       const double ms = milliseconds([&] {
@@ -182,9 +186,12 @@ PreparedScene& PreparedScene::operator=(PreparedScene&&) noexcept = default;
 const Scene& PreparedScene::scene() const { return parts_->scene; }
 
 void PreparedScene::edit(const std::function<void(SceneEdit&)>& change) {
-  const std::unique_lock alone(parts_->mutex);
-  SceneEdit edit(parts_->scene, parts_->changes);
-  change(edit);
+  isolated([&] {
+    const std::lock_guard next(parts_->turnstile);
+    const std::unique_lock alone(parts_->mutex);
+    SceneEdit edit(parts_->scene, parts_->changes);
+    change(edit);
+  });
 }
 
 ChosenTechnique PreparedScene::Parts::choose(const Shot& shot, const RenderOptions& options, RenderStats& stats) const {

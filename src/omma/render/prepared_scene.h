@@ -42,9 +42,9 @@ class PreparedScene {
 
   /// Draws into the memory of the outputs. `worldFromCamera` is rigid. `visibility:cpu` opens no OpenGL but to show
   /// pieces; for colour, `auto` opens it to see whether there is a GPU. Throws CommandError for outputs that
-  /// omma::check refuses and for options that make no sense or do not go together, all before anything is drawn,
-  /// MachineError for what this driver cannot do, and Cancelled when options.stop says so: what is in the memory is
-  /// then good for nothing.
+  /// omma::check refuses, before anything is written, and for options that make no sense or do not go together,
+  /// MachineError for what this driver cannot do, and Cancelled when options.stop says so. After these what is in the
+  /// memory is good for nothing.
   void render(const Shot& shot, const RenderOptions& options, RenderStats* stats = nullptr) const;
   /// All cameras of a rig, or both eyes, of the scene at one moment: what they have in common is made once, and where
   /// the processor draws they are drawn beside each other. `stats`, if there, becomes one for each shot.

@@ -29,6 +29,12 @@ void check_transform(const glm::dmat4& worldFromObject) {
   }
 }
 
+/// Ids are whole numbers of 32 bits.
+void check_triangles(size_t count) {
+  constexpr size_t most = std::numeric_limits<int32_t>::max();
+  if (count > most) throw CommandError("the scene would have {} triangles; {} can be numbered", count, most);
+}
+
 void check_number(int number, size_t count, const char* what) {
   if (number < 0 || size_t(number) >= count) {
     throw CommandError("{} {} is not in the scene, which has {} of them", what, number, count);
@@ -71,9 +77,11 @@ uint32_t SceneEdit::add_instance(int mesh, const glm::dmat4& worldFromObject, in
   const Mesh& shown = find_mesh(mesh);
   check_transform(worldFromObject);
   if (object < 0) throw CommandError("object {}; numbers from 0 on are possible", object);
-  if (scene_.triangle_count() + shown.triangles.size() > size_t(std::numeric_limits<int32_t>::max())) {
-    throw CommandError("with mesh '{}' once more the scene has more triangles than ids", shown.name);
+  if (shown.deforms()) {
+    throw CommandError("mesh '{}' has a skin or morph targets and stands where its node is; it has no other instance",
+                       shown.name);
   }
+  check_triangles(scene_.triangle_count() + shown.triangles.size());
   Instance instance;
   instance.mesh = mesh;
   instance.node = -1;
@@ -103,6 +111,9 @@ void SceneEdit::set_vertices(int mesh, std::span<const glm::vec3> positions, std
                          what, mesh, changed.name, changed.positions.size());
     }
   };
+  if (changed.deforms()) {
+    throw CommandError("mesh {} '{}' has a skin or morph targets, which move its vertices", mesh, changed.name);
+  }
   check_count(positions.size(), "positions");
   if (!normals.empty()) check_count(normals.size(), "normals");
   check_finite(positions, "position");
@@ -151,6 +162,9 @@ int SceneEdit::add_mesh(Mesh mesh) {
 void SceneEdit::replace_mesh(int mesh, Mesh with) {
   Mesh& changed = find_mesh(mesh);
   check(with);
+  if (changed.deforms()) throw CommandError("mesh {} '{}' has a skin or morph targets", mesh, changed.name);
+  const auto users = size_t(std::ranges::count(scene_.instances, mesh, &Instance::mesh));
+  check_triangles(scene_.triangle_count() + users * with.triangles.size() - users * changed.triangles.size());
   changed = std::move(with);
   number_triangles(scene_);
   changes_.replaced.insert(mesh);
@@ -202,6 +216,12 @@ void SceneEdit::set_material(int material, const Material& with) {
 void SceneEdit::set_lights(std::vector<Light> lights) {
   for (const Light& light : lights) {
     if (light.node != -1) check_number(light.node, scene_.nodes.size(), "node");
+    const double reach = glm::length(light.direction) + glm::length(light.position) + double(glm::length(light.color)) +
+                         double(light.range) + double(light.inner_angle) + double(light.outer_angle);
+    if (!std::isfinite(reach)) throw CommandError("light '{}' has a number that is not finite", light.name);
+    if (light.kind != Light::Kind::point && glm::length(light.direction) == 0.0) {
+      throw CommandError("light '{}' shines in no direction", light.name);
+    }
   }
   scene_.lights = std::move(lights);
   changes_.lights = true;

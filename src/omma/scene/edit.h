@@ -25,14 +25,16 @@ class SceneEdit {
 
   /// The transform is finite. An instance of a mesh with a skin moves by its joints alone and is refused.
   void move(uint32_t instance, const glm::dmat4& worldFromObject);
-  /// Another instance of a mesh, with the object number that the channel `object` shows, 0 or more. Returns its key.
-  /// Its triangles' ids come after all others; set_time leaves it where it is.
+  /// Another instance of a mesh that has neither skin nor morph targets, with the object number that the channel
+  /// `object` shows, 0 or more. Returns its key. Its triangles' ids come after all others; set_time leaves it where it
+  /// is.
   uint32_t add_instance(int mesh, const glm::dmat4& worldFromObject, int object);
   /// The triangles of later instances move up: their ids are lower from now on.
   void remove_instance(uint32_t instance);
 
   /// Other vertices, as many as the mesh has, in its frame: metres, and normals of unit length, or none to keep those
   /// that it has. All finite. They are copied.
+  /// Refused for meshes with a skin or morph targets, which set_time moves.
   void set_vertices(int mesh, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals = {});
   /// A mesh of the scene from now on, without skin and morph targets; no instance shows it yet. Returns its number.
   int add_mesh(Mesh mesh);

@@ -40,7 +40,7 @@ struct SoftwareOptions {
   int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
   std::optional<int> reflect{};  ///< the object whose surfaces show what surrounds it
   int reflection_size = 512;     ///< texels along each of its two maps, 16 or more
-  std::stop_token stop{};        ///< drawing ends soon when it is asked to, by throwing Cancelled
+  std::stop_token stop{};        ///< asked to stop, drawing ends between two squares, by throwing Cancelled
 };
 
 /// What a picture took.

@@ -14,7 +14,7 @@ namespace omma {
 class Materials {
  public:
   Materials(const Scene& scene, const gl::Context& context);
-  /// Takes over the numbers of materials; as many as before, with the textures that they had.
+  /// Takes over the numbers of materials, of new ones, too; their textures are those that the scene had before.
   void update();
 
   /// Symbols that shaders/shading expects for a material. `labels` is for channels that are not colour: there a blended

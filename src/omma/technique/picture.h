@@ -46,11 +46,13 @@ struct RenderOptions {
   int shadow_size = 1024;        ///< texels along a shadow map, 16 or more
   std::optional<int> reflect{};  ///< the object whose surfaces show what surrounds it
   int reflection_size = 512;     ///< texels along each of its two maps, 16 or more
-  std::stop_token stop{};        ///< when it is asked to stop, drawing ends soon, by throwing Cancelled
+  /// When it is asked to stop, drawing ends by throwing Cancelled: between squares of pixels on the processor, between
+  /// tiles and passes by OpenGL; maps of shadows and what else is kept for later pictures are finished first.
+  std::stop_token stop{};
 };
 
-/// How many samples a pixel has in a picture that gets better while nothing moves: 1, 4, 16, … up to `samples`. Each is
-/// the picture that so many samples give, and all together take a third longer than the last alone.
+/// How many samples a pixel has in a picture that gets better while nothing moves: 1, 4, 16, …, `samples`. Each is the
+/// picture that so many samples give. All together take a third longer than the last alone where that is a power of 4.
 std::vector<int> refinement(int samples);
 
 /// The effects asked for, then those that show something. Throws CommandError for a chain that check_effects refuses.

@@ -69,7 +69,8 @@ class Technique {
   /// tools.timer.
   virtual void draw(const View& view, const Target& target) = 0;
 
-  /// The scene has moved or deformed: what was derived from it must be derived again.
+  /// Instances have moved or vertices have: what was derived from them must be derived again. When parts of the scene
+  /// come or go the technique is made anew.
   virtual void scene_changed(const SceneChanges&) {}
 
   /// What the last picture was made of, as a camera in the pieces form; null where there are no pieces.

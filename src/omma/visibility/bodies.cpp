@@ -73,7 +73,7 @@ void Bodies::group() {
   for (size_t m = 0; m < users.size(); ++m) {
     if (users[m].size() != 1 || scene_->meshes[m].triangles.empty()) continue;
     const Instance& instance = scene_->instances[users[m].front()];
-    if (movers_.contains(instance.key)) continue;
+    if (movers_.contains(instance.key) || lively_.contains(int(m))) continue;
     // Blended surfaces are looked for on their own.
     auto found = std::ranges::find_if(together_, [&](const Together& other) {
       return other.worldFromBody == instance.worldFromObject && other.blended == is_blended(int(m));
@@ -99,7 +99,8 @@ void Bodies::group() {
 bool Bodies::stands_in(const Together& together, size_t part, uint32_t instance) const {
   const int mesh = bodies_[together.body].meshes[part];
   const Instance& there = scene_->instances[instance];
-  return there.mesh == mesh && there.worldFromObject == together.worldFromBody && is_blended(mesh) == together.blended;
+  return there.mesh == mesh && there.worldFromObject == together.worldFromBody &&
+         is_blended(mesh) == together.blended && !lively_.contains(mesh);
 }
 
 bool Bodies::place() {
@@ -136,6 +137,24 @@ bool Bodies::place() {
   return true;
 }
 
+void Bodies::follow_deformed(const std::set<int>& deformed) {
+  if (deformed.empty()) return;
+  for (Body& body : bodies_) {
+    size_t count = 0;  // of clusters that deform
+    for (size_t part = 0; part < body.meshes.size(); ++part) {
+      if (deformed.contains(body.meshes[part])) count += size_t(std::ranges::count(body.part, uint32_t(part)));
+    }
+    if (count == 0) continue;
+    if (4 * count >= body.clusters.size()) {
+      body.refit(*scene_);
+      continue;
+    }
+    for (const int mesh : body.meshes) {
+      if (deformed.contains(mesh)) lively_.insert(mesh);
+    }
+  }
+}
+
 void Bodies::update(const SceneChanges& changes) {
   if (changes.listed) {
     instance_of_key_.clear();
@@ -152,8 +171,6 @@ void Bodies::update(const SceneChanges& changes) {
       } else {
         fell_apart = true;
       }
-    } else if (is_in(changes.deformed)) {
-      body.refit(*scene_);
     }
   }
   if (fell_apart) {
@@ -162,6 +179,7 @@ void Bodies::update(const SceneChanges& changes) {
     }
     return group();
   }
+  follow_deformed(changes.deformed);
   if (!place()) group();
 }
 

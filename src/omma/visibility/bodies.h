@@ -65,6 +65,8 @@ class Bodies {
   bool place();
   bool is_blended(int mesh) const;
   bool stands_in(const Together& together, size_t part, uint32_t instance) const;
+  /// Takes over deformed vertices. Where they are few of many that stand together, those become bodies of their own.
+  void follow_deformed(const std::set<int>& deformed);
   size_t body_of(int mesh);
 
   const Scene* scene_;
@@ -72,6 +74,7 @@ class Bodies {
   std::vector<Together> together_;
   std::vector<std::optional<size_t>> own_;  ///< by mesh: the body that holds nothing else
   std::unordered_map<uint32_t, uint32_t> instance_of_key_;
+  std::unordered_set<int> lively_;       ///< meshes that have deformed among others that do not
   std::unordered_set<uint32_t> movers_;  ///< keys of instances that have moved away from others
   std::vector<Placement> placements_;
 };

@@ -146,7 +146,10 @@ SampleVector<T> read_samples(TIFF* file, const Layout& layout, Pixels& pixels, c
   uint32_t width = 0, height = 0;
   TIFFGetField(file, TIFFTAG_TILEWIDTH, &width);
   TIFFGetField(file, TIFFTAG_TILELENGTH, &height);
+  // Tiles are multiples of 16, and the last ones may reach beyond the picture: no more than that, whatever they claim.
   check(width > 0 && height > 0 && width <= 65536 && height <= 65536, source);
+  constexpr uint32_t most_beyond = 1024;
+  check(width <= uint32_t(size.width) + most_beyond && height <= uint32_t(size.height) + most_beyond, source);
   SampleVector<T> tile(size_t(width) * height * size_t(copier.in_buffer));
   check(size_t(TIFFTileSize64(file)) <= tile.size() * sizeof(T), source);
   for (int plane = 0; plane < planes; ++plane) {

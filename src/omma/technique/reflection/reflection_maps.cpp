@@ -63,7 +63,7 @@ void ReflectionMaps::draw(const Key& key) {
 
 void ReflectionMaps::scene_changed(const SceneChanges& changes) {
   key_.reset();
-  if (technique_) technique_->scene_changed(changes);
+  if (technique_ && changes.of_shape()) technique_->scene_changed(changes);
 }
 
 size_t ReflectionMaps::bytes() const {

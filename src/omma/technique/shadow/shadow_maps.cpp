@@ -24,11 +24,12 @@ void ShadowMaps::use(Shadows kind, int size) {
     table_.layers = std::move(layers);
     table_.maps = gl::Texture::array(depth_format, {size, size}, int(table_.layers.size()));
     target_ = Target({size, size}, {});
-    kind_ = kind;
+    kind_ = Shadows::off;  // until they are there
     size_ = size;
     // The scene's lights are lit, not shadowed, while their maps are drawn.
     scene_.set_shadows(nullptr);
     for (size_t i = 0; i < table_.layers.size(); ++i) draw(table_.layers[i], int(i));
+    kind_ = kind;
   }
   scene_.set_shadows(&table_);
 }
@@ -53,6 +54,7 @@ Technique& ShadowMaps::technique_for(const Camera& camera) {
 
 void ShadowMaps::scene_changed(const SceneChanges& changes) {
   kind_ = Shadows::off;
+  if (!changes.of_shape()) return;
   for (auto& [name, technique] : techniques_) technique->scene_changed(changes);
 }
 
