@@ -23,7 +23,10 @@ double resident_mb() {
 class SoakTest : public GpuTest {};
 
 TEST_F(SoakTest, CamerasAndASceneThatChangeLeaveMemoryWhereItWas) {
-  const int frames = full_proof() ? 10000 : 240;
+  // Programs that OpenGL compiles, one after another as cameras and shadows call for them, are most of the time: in the
+  // full proof alone.
+  const bool by_gl = full_proof();
+  const int frames = by_gl ? 10000 : 600;
   Scene scene = load_scene("room");
   const int ball = int(scene.meshes.size());
   scene.meshes.push_back(make_ball(0.2f, 0));
@@ -59,7 +62,7 @@ TEST_F(SoakTest, CamerasAndASceneThatChangeLeaveMemoryWhereItWas) {
     const glm::dmat4 pose = look_at_worldFromCamera({uniform(), 1.2, uniform()}, {0.0, 1.0, -3.0});
     const Channel wanted[] = {Channel::color, Channel::object};
     RenderOptions options{.technique = "visibility:cpu", .samples = 1 + frame % 4};
-    if (frame % 10 == 0) options.technique = frame % 20 == 0 ? "visibility:resolve" : "nonlinear";
+    if (by_gl && frame % 10 == 0) options.technique = frame % 20 == 0 ? "visibility:resolve" : "nonlinear";
     if (frame % 15 == 0) options.shadows = Shadows::paraboloid;
     options.shadow_size = 64;
     const auto pictures = prepared.render(camera, pose, wanted, options);
@@ -69,7 +72,7 @@ TEST_F(SoakTest, CamerasAndASceneThatChangeLeaveMemoryWhereItWas) {
   EXPECT_GT(hits, size_t(frames));
   const double grown = resident_mb() - warm;
   std::cout << frames << " frames, " << warm << " MB after a third, " << grown << " MB more at the end\n";
-  EXPECT_LT(grown, 16.0);
+  EXPECT_LT(grown, 4.0);
 }
 
 }  // namespace
