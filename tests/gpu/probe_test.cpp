@@ -11,6 +11,7 @@
 #include "omma/probe/probe.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/hand_made.h"
+#include "tests/proof.h"
 
 namespace omma {
 namespace {
@@ -180,9 +181,14 @@ TEST_P(ProbeTest, AgreesWithRays) {
   for (const char* name : {"temple", "city"}) {
     const Scene scene = load_scene(name);
     prepare(scene);
-    const std::vector<ProbePoint> points =
+    std::vector<ProbePoint> points =
         points_in_view(draw(make_camera("equidistant:fov_deg=180", ImageSize{24, 24}), default_pose(scene),
                             {Channel::position, Channel::normal}, {.technique = "raycast"}));
+    constexpr size_t enough = 8;
+    if (!full_proof() && points.size() > enough) {  // evenly over all of them
+      for (size_t i = 0; i < enough; ++i) points[i] = points[i * points.size() / enough];
+      points.resize(enough);
+    }
     ProbeOptions options;
     options.render.technique = GetParam();
     options.max_distance = reach;
